@@ -1,0 +1,34 @@
+#pragma once
+
+#include <span>
+
+#include "bodies/marker.h"
+
+namespace wishbone {
+
+/// What every force element is given in one evaluation.
+struct ForceInput {
+  double time = 0;                        ///< [s]
+  std::span<const MarkerState> markers;   ///< by MarkerIndex
+  std::span<const double> states;         ///< states of the element's own (tire lag, ...); empty when it has none
+  int segment = 0;                        ///< the element's discrete state (road segment of a tire, ...), changed only by events
+};
+
+/// Where every force element adds its result.
+struct ForceOutput {
+  std::span<Wrench> wrenches;          ///< by MarkerIndex; add to them
+  std::span<double> state_rates;       ///< of the element's own states; set them
+  double power = 0;                    ///< set: power that the element delivers to the bodies, sum f.v + t.w [W]
+};
+
+/// The contract of a force element (a concept, not a base class: the evaluation calls concrete types, without
+/// virtual dispatch). A type F in the room `forces` has
+///
+///     void apply(const ForceInput&, ForceOutput&) const;     // adds wrenches, sets power and state rates; no allocation
+///     double energy(const ForceInput&) const;                // recoverable energy stored now [J]; zero if none
+///     int state_count() const;                               // number of states of its own
+///     const std::string& name() const;
+///
+/// Throws NumericsError naming itself, the time and the value when its law is undefined at the given state.
+
+}  // namespace wishbone

@@ -1,0 +1,24 @@
+# Everything comes from the distribution's packages (scripts/install-packages lists them).
+find_package(Eigen3 3.4 REQUIRED)
+find_package(fmt 9 REQUIRED)
+find_package(yaml-cpp 0.7 REQUIRED)
+find_package(CLI11 2.1 REQUIRED)
+find_package(muparser REQUIRED)
+if(NOT TARGET muparser::muparser)  # Debian 12 exports the target without a namespace
+  add_library(muparser::muparser ALIAS muparser)
+endif()
+find_package(nlohmann_json 3.11 REQUIRED)
+find_package(SUNDIALS 6.4 REQUIRED COMPONENTS cvode ida arkode)
+
+# The serial HDF5 by its own pkg-config name: the plain name turns into the MPI flavour as soon as PETSc
+# (which SUNDIALS pulls in) has been installed.
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(HDF5_SERIAL REQUIRED IMPORTED_TARGET hdf5-serial)
+add_library(WishboneDeps::hdf5 INTERFACE IMPORTED)
+target_link_libraries(WishboneDeps::hdf5 INTERFACE PkgConfig::HDF5_SERIAL hdf5_serial_hl)
+
+find_path(UDUNITS2_INCLUDE_DIR udunits2.h REQUIRED)
+find_library(UDUNITS2_LIBRARY udunits2 REQUIRED)
+add_library(WishboneDeps::udunits2 INTERFACE IMPORTED)
+target_include_directories(WishboneDeps::udunits2 INTERFACE ${UDUNITS2_INCLUDE_DIR})
+target_link_libraries(WishboneDeps::udunits2 INTERFACE ${UDUNITS2_LIBRARY})
