@@ -94,7 +94,7 @@ void CvodeIntegrator::create(const State& state, const Work& work) {
   equations_.pack(state, work, sundials::map(y_));
   CVodeSetErrHandlerFn(cvode, [](int, const char*, const char*, char*, void*) {}, nullptr);  // flags tell the story
   CVodeInit(cvode, rate, state.t, y_.get());
-  CVodeSVtolerances(cvode, options_.rtol, tolerances_.get());
+  CVodeSVtolerances(cvode, equations_.tolerance_scale() * options_.rtol, tolerances_.get());
   CVodeSetUserData(cvode, this);
   CVodeSetMaxNumSteps(cvode, -1);  // counted by the caller
   if (options_.max_step > 0) CVodeSetMaxStep(cvode, options_.max_step);

@@ -80,7 +80,7 @@ void ErkIntegrator::create(const State& state, const Work& work) {
   arkode_.reset(ERKStepCreate(rate, state.t, y_.get(), context_));
   void* arkode = arkode_.get();
   ERKStepSetErrHandlerFn(arkode, [](int, const char*, const char*, char*, void*) {}, nullptr);
-  ERKStepSVtolerances(arkode, options_.rtol, tolerances_.get());
+  ERKStepSVtolerances(arkode, equations_.tolerance_scale() * options_.rtol, tolerances_.get());
   ERKStepSetUserData(arkode, this);
   ERKStepSetMaxNumSteps(arkode, -1);  // counted by the caller
   ERKStepSetTableNum(arkode, ARKODE_DORMAND_PRINCE_7_4_5);

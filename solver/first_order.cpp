@@ -1,5 +1,7 @@
 #include "solver/first_order.h"
 
+#include <cmath>
+
 #include "solver/assembly.h"
 #include "solver/events.h"
 #include "solver/forward_dynamics.h"
@@ -78,8 +80,10 @@ void FirstOrderSystem::calc_events(double t, const Eigen::Ref<const VectorX>& y,
   wishbone::calc_events(system_, ws_, {g, static_cast<std::size_t>(event_count(system_))});
 }
 
+double FirstOrderSystem::tolerance_scale() const { return 1.0 / std::sqrt(static_cast<double>(size_)); }
+
 void FirstOrderSystem::set_tolerances(double atol, Eigen::Ref<VectorX> tolerances) const {
-  tolerances.setConstant(atol);
+  tolerances.setConstant(tolerance_scale() * atol);
   tolerances.tail<2>().setConstant(1e20);
 }
 

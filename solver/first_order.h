@@ -29,7 +29,10 @@ class FirstOrderSystem {
   bool project(double t, double tolerance, Eigen::Ref<VectorX> y);
   void calc_events(double t, const Eigen::Ref<const VectorX>& y, double* g);
 
-  /// Absolute tolerances: `atol`, but none on the energies, which follow and steer nothing.
+  /// Factor on tolerances, 1/sqrt(size). SUNDIALS holds the root mean square of the weighted errors below one; with this
+  /// factor every single coordinate meets its tolerance, and coordinates at rest do not loosen it for the others.
+  double tolerance_scale() const;
+  /// Absolute tolerances, scaled: `atol`, but none on the energies, which follow and steer nothing.
   void set_tolerances(double atol, Eigen::Ref<VectorX> tolerances) const;
 
   /// Name of an entry of y for messages.

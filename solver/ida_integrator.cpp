@@ -140,7 +140,7 @@ void IdaIntegrator::create() {
   void* ida = ida_.get();
   IDASetErrHandlerFn(ida, [](int, const char*, const char*, char*, void*) {}, nullptr);
   IDAInit(ida, residual, t_, y_.get(), y_rate_.get());
-  IDASVtolerances(ida, options_.rtol, tolerances_.get());
+  IDASVtolerances(ida, equations_.tolerance_scale() * options_.rtol, tolerances_.get());
   IDASetUserData(ida, this);
   IDASetMaxNumSteps(ida, -1);  // counted by the caller
   if (options_.max_step > 0) IDASetMaxStep(ida, options_.max_step);

@@ -42,10 +42,12 @@ void update_position(const System& system, const TreeBody& body, const Joint& jo
 
   // columns of H about Bo, world axes: (w, v_Mo + w x p_MB)
   const Vector3 p_MB = R_WF * (across.X_FM.R * body.X_MB.p);
-  for (int i = 0; i < nv; ++i) {
-    const Vector3 w = R_WF * across.H.col(i).template head<3>();
-    s.H.col(i) << w, R_WF * across.H.col(i).template tail<3>() + w.cross(p_MB);
-  }
+  if constexpr (nv > 0)
+    for (int i = 0; i < nv; ++i) {
+      const Vector6 h = across.H.col(i);
+      const Vector3 w = R_WF * angular(h);
+      s.H.col(i) << w, R_WF * linear(h) + w.cross(p_MB);
+    }
 }
 
 template <class Joint>
