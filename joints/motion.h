@@ -13,8 +13,9 @@ struct MotionValue {
   double acceleration = 0;
 };
 
-/// A change that fades in and out: change s((t - time)/duration), with the quintic s(u) = 6 u^5 - 15 u^4 + 10
-/// u^3 between u = 0 and 1, constant outside. Twice continuously differentiable.
+/// A change that fades in and out: change s((t - time)/duration), with the quintic
+///     s(u) = 6 u^5 - 15 u^4 + 10 u^3,   0 <= u <= 1,
+/// constant outside. Twice continuously differentiable.
 struct MotionStep {
   double time = 0;      ///< [s]
   double duration = 0;  ///< [s], positive
@@ -36,16 +37,14 @@ struct Ackermann {
 class Motion {
  public:
   /// @throws InputError naming `element` when a step has no duration, the Ackermann geometry is not positive,
-  /// or the
-  ///   command can reach the angle at which a wheel would turn about itself (|tan(delta)| >= 2 l/w) or a
-  ///   right angle
+  ///   or the command can reach the angle tan(delta) = 2 l/w, at which the inner wheel stands across
   Motion(std::string_view element, double start, std::vector<MotionStep> steps,
          std::optional<Ackermann> ackermann = std::nullopt);
 
   MotionValue at(double t) const;
 
-  /// Edges of the steps, ascending, each once: the third derivative jumps there, so an integrator should stop
-  /// [s].
+  /// Edges of the steps [s], ascending, each once: the third derivative jumps there, so an integrator should
+  /// stop.
   std::vector<double> stop_times() const;
 
  private:

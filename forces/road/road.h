@@ -6,8 +6,8 @@
 
 namespace wishbone {
 
-/// One half sine wave cut into the road: profile(x) = -depth sin(pi (x - start)/length), start <= x <= start
-/// + length.
+/// One half sine wave cut into the road:
+///     profile(x) = -depth sin(pi (x - start)/length),   start <= x <= start + length.
 struct RoadDepression {
   double start = 0;   ///< [m]
   double length = 0;  ///< [m], positive

@@ -10,11 +10,11 @@ namespace wishbone {
 ///
 /// The road is replaced by its tangent plane at P0, the point straight below the wheel centre C; us is the
 /// spin axis:
-///     ux = us x uz normalised (heading),   uy = uz x ux (left),   e = -(uz - (uz.us) us) normalised (down in
-///     the wheel plane), d = (C - P0).uz,   rho = d/(-e.uz),   P = C + rho e,   delta = R1 - rho   (in
-///     contact when delta > 0).
-/// Velocities are those of the point of the *non-spinning* wheel carrier at P: v_P = v_C + (w - (w.us) us) x
-/// (P - C).
+///     ux = us x uz normalised (heading),   uy = uz x ux (left),
+///     e = -(uz - (uz.us) us) normalised (down in the wheel plane),
+///     d = (C - P0).uz,   rho = d/(-e.uz),   P = C + rho e,   delta = R1 - rho (in contact when positive).
+/// Velocities are those of the point of the *non-spinning* wheel carrier at P:
+///     v_P = v_C + (w - (w.us) us) x (P - C).
 struct WheelContact {
   Vector3 P0;  ///< road point below the wheel centre [m]
   Vector3 P;   ///< contact point, in the wheel plane and in the tangent plane of the road [m]

@@ -116,7 +116,7 @@ TireOutput Tire::output(const ForceInput& input) const {
   out.camber = c.camber;
   if (!out.contact) return out;
   out.slip_ratio = -ua_slip(c.vx, c.vy, c.v_cir, c.camber).sx;
-  out.slip_angle = std::atan(c.vy / ua_slip_reference_speed(c.vx, 0.0));
+  out.slip_angle = std::atan(c.vy / ua_slip_reference_speed(c.vx, 0.0));  // |vx|, regularised at standstill
   out.force = Vector3(e.shear.fx, e.shear.fy, e.Fz);
   out.moment = Vector3(0.0, e.Ty, e.Tz);
   return out;

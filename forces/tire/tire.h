@@ -17,16 +17,15 @@ struct TireOutput {
   double deflection = 0;         ///< delta [m]; negative in the air
   double camber = 0;             ///< gamma [rad], positive when the top leans to the left (+uy)
   double slip_ratio = 0;         ///< kinematic S = (vx - v_cir)/vr, positive when braking; 0 in the air
-  double slip_angle =
-      0;  ///< kinematic alpha = atan(vy/sqrt(vx^2 + v_eps^2)) [rad], positive to the left; 0 in the air
+  double slip_angle = 0;  ///< kinematic alpha = atan(vy/|vx|) [rad], positive to the left; 0 in the air
   Vector3 force = Vector3::Zero();   ///< (Fx, Fy, Fz) in the contact axes ux, uy, uz, at P [N]
   Vector3 moment = Vector3::Zero();  ///< (0, Ty, Tz) about P in the contact axes [N m]
 };
 
 /// A tire on a road: the UA tire law at the one-point contact, as a force element of one marker.
 ///
-///     F = Fx ux + Fy uy + Fz uz at P,   M_P = Ty uy + Tz uz,   Ty = -Kr Fz tanh(Omega/Omega_0), Omega_0 = 1
-///     rad/s,
+///     F = Fx ux + Fy uy + Fz uz at P,   M_P = Ty uy + Tz uz,
+///     Ty = -Kr Fz tanh(Omega/Omega_0),   Omega_0 = 1 rad/s,
 /// given to the wheel at its centre C as (M_P + (P - C) x F, F). Nothing acts in the air (delta <= 0).
 /// The lateral stress's part of Tz carries the same factor tanh(Omega/Omega_0): rolling backward exchanges
 /// the leading and the trailing edge, and with them the side of the pneumatic trail.
@@ -40,11 +39,9 @@ struct TireOutput {
 /// speed. Beyond slip 1 the tread slides, and a deflection relaxes with the sliding as well (see lag_rate),
 /// lest it wind up in a standing wheel that is pushed sideways. In the air both relax to zero.
 ///
-/// Energy: Cz delta^2/2 in contact. The discrete state of the element is its road segment
-/// (ForceInput::segment).
+/// Energy: Cz delta^2/2 in contact. The element's discrete state is its road segment (ForceInput::segment).
 /// @throws NumericsError from apply, energy and output naming the tire, the time and the value when the wheel
-/// lies flat on
-///   the road or its centre is not above it.
+///   lies flat on the road or its centre is not above it.
 class Tire {
  public:
   /// @param wheel marker at the wheel centre, fixed to the wheel, y axis = spin axis, pointing left

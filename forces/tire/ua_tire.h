@@ -8,12 +8,14 @@
 /// linearly from the leading edge, camber deforms it parabolically; from the point at which the shear stress
 /// reaches mu times the pressure the tread slides. With xi = 0 ... 1 from the leading to the trailing edge,
 /// the stresses per unit of xi are
-///     pressure  6 Fz xi (1 - xi),      adhering  qx = 2 Cs sx xi,   qy = 2 C_alpha sy xi + 6 C_gamma
-///     sin(gamma) xi (1 - xi).
+///     pressure  6 Fz xi (1 - xi),
+///     adhering  qx = 2 Cs sx xi,   qy = 2 C_alpha sy xi + 6 C_gamma sin(gamma) xi (1 - xi).
 /// All forces act on the wheel, in contact axes: x heading, y left, z along the road normal.
 ///
 /// Sources: G. Gim and P. E. Nikravesh, "An analytical model of pneumatic tyres for vehicle dynamic
 /// simulations", Int. J. of Vehicle Design 11(6), 589-618 (1990), part 1, and 12(1), 19-39 (1991), part 2.
+/// All coefficients here follow from the stresses above by integration; in the moment of the longitudinal
+/// stress (UaShear::tz_traction) they may differ from the papers'.
 namespace wishbone {
 
 struct UaTireParameters {
@@ -80,18 +82,20 @@ double ua_normal_force(const UaTireParameters& tire, double delta, double delta_
 /// The continuous form. With ax = Cs sx, ay = C_alpha sy, F = mu Fz and ag = C_gamma sin(gamma) held within
 /// +-F, sliding starts at xi = l_n = 1 - Sn where |(ax, ay + 3 ag Sn)| = 3 F Sn and keeps the direction u of
 /// the stress there:
-///     Fx = ax l_n^2 + F ux g,   Fy = ay l_n^2 + ag (3 l_n^2 - 2 l_n^3) + F uy g,   g = 1 - 3 l_n^2 + 2
-///     l_n^3.
+///     Fx = ax l_n^2 + F ux g,
+///     Fy = ay l_n^2 + ag (3 l_n^2 - 2 l_n^3) + F uy g,   g = 1 - 3 l_n^2 + 2 l_n^3.
 /// Mirror symmetric: (sy, gamma) -> -(sy, gamma) keeps Fx and turns Fy and Tz. |(Fx, Fy)| <= mu Fz always.
 UaShear ua_shear_smooth(const UaTireParameters& tire, const UaSlip& slip, double patch_length, double Fz);
 
 /// The published form: magnitudes in three cases by the signs of slip angle alpha and camber gamma,
 /// recombined by signs.
-///     I   alpha gamma < 0 or gamma = 0              stresses add
-///     II  alpha gamma >= 0, C_alpha Sa >= C_gamma Sg   they oppose, slip angle rules
-///     III alpha gamma >= 0, C_alpha Sa <  C_gamma Sg   they oppose, camber rules
+///     I    alpha gamma < 0 or gamma = 0                 stresses add
+///     II   alpha gamma >= 0, C_alpha Sa >= C_gamma Sg   they oppose, slip angle rules
+///     III  alpha gamma >= 0, C_alpha Sa <  C_gamma Sg   they oppose, camber rules
 /// In the sliding zone mu is split in the ratio of the slips. In case III sliding friction acts along
 /// sign(gamma), which complete sliding requires there and which makes Fy and Tz jump between II and III.
+/// Under braking or traction Tz also jumps at alpha = 0 of a leaning wheel (I and III), for its sign is that
+/// of alpha.
 UaShear ua_shear_classic(const UaTireParameters& tire, const UaSlip& slip, double patch_length, double Fz);
 
 }  // namespace wishbone
