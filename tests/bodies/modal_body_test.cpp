@@ -175,7 +175,7 @@ TEST(ModalBody, PlacesItsInterfaceNodes) {
   ASSERT_EQ(body.interface_count(), 12);
   for (int k = 0; k < body.interface_count(); ++k) {
     const int i = kInterface[k] - 1;
-    EXPECT_LE((state.interface_b.col(k) - node.b.col(i)).norm(), 1e-15 * 10);
+    EXPECT_LE((state.interface_b.col(k) - node.b.col(i)).norm(), 1e-14);
     EXPECT_LE((state.interface_delta_dot.col(k) - node.delta_dot.col(i)).norm(), 1e-13);
     EXPECT_EQ(body.interface_shape(k), chassis().shapes.middleRows<3>(3 * i));
   }
@@ -247,7 +247,7 @@ using RealMatrixX = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 /// the mean axes R are found from sum m_i s_i x delta_i = 0 by Newton iteration.
 class ElasticPotential {
  public:
-  explicit ElasticPotential(const ModeSet& set, const MatrixX& K)
+  ElasticPotential(const ModeSet& set, const MatrixX& K)
       : mass_(set.node_mass.cast<Real>()), s_(set.node_position.cast<Real>()), K_(K.cast<Real>()) {}
 
   Real operator()(const RealMatrix3X& x, RealMatrix3 R) const {
@@ -429,11 +429,8 @@ TEST(ModalBody, FreeFlightConservesEnergyAndMomenta) {
     const ModalBody body(chassis().lowest(count), kInterface);
     FreeFlight flight(body);
     const FreeFlight::Balance start = flight.balance();
-    flight.fly(1.0, count == 54 ? 1500 : 500);
+    flight.fly(1.0, count == 54 ? 3000 : 1500);
     const FreeFlight::Balance end = flight.balance();
-    std::cout << count << " " << end.energy / start.energy - 1 << " "
-              << (end.angular_momentum - start.angular_momentum).norm() / start.angular_momentum.norm()
-              << "\n";
     EXPECT_NEAR(end.energy / start.energy, 1, 1e-8) << count << " modes";
     expect_same_momenta(start, end);
   }
