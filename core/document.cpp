@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 #include "core/did_you_mean.h"
@@ -66,12 +68,12 @@ class Merger {
       parameters_.insert(parameters_.end(), entry.value->entries.begin(), entry.value->entries.end());
       return;
     }
-    const auto same =
-        std::find_if(sections_.begin(), sections_.end(), [&](const Entry& s) { return s.key == entry.key; });
-    if (same == sections_.end()) {
+    const auto [known, is_new] = section_index_.emplace(entry.key, sections_.size());
+    if (is_new) {
       sections_.push_back(entry);
     } else {
-      *same = merge(*same, entry);
+      Entry& section = sections_[known->second];
+      section = merge(section, entry);
     }
   }
 
@@ -82,10 +84,12 @@ class Merger {
     if (a.kind != Kind::kMapping || b.kind != Kind::kMapping || a.find("select") || b.find("select")) {
       refuse_twice(second.key, first.where, second);
     }
+    std::map<std::string_view, const Entry*> known;
+    for (const Entry& entry : a.entries) known.emplace(entry.key, &entry);
     auto merged = std::make_shared<YamlNode>(a);
     for (const Entry& entry : b.entries) {
-      if (const Entry* other = a.find(entry.key))
-        refuse_twice(second.key + "." + entry.key, other->where, entry);
+      const auto other = known.find(entry.key);
+      if (other != known.end()) refuse_twice(second.key + "." + entry.key, other->second->where, entry);
       merged->entries.push_back(entry);
     }
     return {second.key, second.where, merged};
@@ -102,6 +106,7 @@ class Merger {
   std::vector<std::filesystem::path> open_;  // chain of files being read
   std::vector<std::filesystem::path> done_;
   std::vector<Entry> sections_;
+  std::map<std::string, std::size_t> section_index_;
   std::vector<Entry> parameters_;
 };
 

@@ -8,6 +8,7 @@
 
 #include <map>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "core/error.h"
@@ -21,7 +22,8 @@ using Kind = YamlNode::Kind;
 /// Builds the tree from the parser's events, so that every limit acts before anything grows.
 class TreeBuilder final : public YAML::EventHandler {
  public:
-  explicit TreeBuilder(std::shared_ptr<const std::string> file) : file_(std::move(file)) {}
+  TreeBuilder(std::shared_ptr<const std::string> file, const std::string& text)
+      : file_(std::move(file)), text_(text) {}
 
   YamlNodePtr root() const { return root_; }
 
@@ -39,6 +41,7 @@ class TreeBuilder final : public YAML::EventHandler {
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& text) override {
     check_tag(mark, tag);
+    if (tag == "!") check_quote_closed(mark);
     if (awaits_key()) return take_key(mark, text);
     const auto node = new_node(Kind::kScalar, mark);
     node->text = text;
@@ -91,7 +94,20 @@ class TreeBuilder final : public YAML::EventHandler {
     throw InputError({where.text(), what, value, remedy});
   }
   [[noreturn]] void refuse_key(const YAML::Mark& mark) const {
-    refuse(place(mark), "a key must be a word", "", "write 'key: value'; quote a text that contains ': '");
+    refuse(place(mark), "a word is wanted here, as the key of a mapping", "",
+           "write 'key: value', and close the brackets that were opened at or above this place");
+  }
+
+  /// yaml-cpp takes the end of the file for the closing quote.
+  void check_quote_closed(const YAML::Mark& mark) const {
+    const auto start = static_cast<std::size_t>(mark.pos);
+    const char quote = start < text_.size() ? text_[start] : '\0';
+    if (quote != '"' && quote != '\'') return;  // a block scalar
+    for (std::size_t i = start + 1; i < text_.size(); ++i) {
+      if (text_[i] == quote) return;
+      if (quote == '"' && text_[i] == '\\') ++i;
+    }
+    refuse(place(mark), "the quote is not closed", "", fmt::format("add a {} at the end of the text", quote));
   }
 
   void check_tag(const YAML::Mark& mark, const std::string& tag) const {
@@ -172,6 +188,7 @@ class TreeBuilder final : public YAML::EventHandler {
   }
 
   std::shared_ptr<const std::string> file_;
+  const std::string& text_;
   std::vector<Level> levels_;
   std::map<YAML::anchor_t, Anchored> anchors_;
   std::size_t aliases_ = 0;
@@ -193,6 +210,33 @@ void refuse_tab_indentation(const std::string& file, const std::string& text) {
   }
 }
 
+/// What the commonest messages of yaml-cpp mean to somebody who wrote a scene.
+[[noreturn]] void refuse_syntax(const Source& where, const std::string& message) {
+  struct Meaning {
+    std::string_view what, remedy;
+  };
+  static const std::map<std::string_view, Meaning> kMeanings{
+      {YAML::ErrorMsg::END_OF_SEQ_FLOW, {"a '[' above is not closed", "add the missing ']'"}},
+      {YAML::ErrorMsg::END_OF_MAP_FLOW, {"a '{' above is not closed", "add the missing '}'"}},
+      {YAML::ErrorMsg::FLOW_END,
+       {"a closing bracket without its opening one", "check the brackets before it"}},
+      {YAML::ErrorMsg::END_OF_MAP,
+       {"this line does not continue the mapping above", "indent it like its neighbours"}},
+      {YAML::ErrorMsg::END_OF_SEQ,
+       {"this line does not continue the list above", "indent it like its neighbours"}},
+      {YAML::ErrorMsg::MAP_VALUE,
+       {"a ':' out of place", "write one 'key: value' per line; quote texts that hold ': '"}},
+      {YAML::ErrorMsg::EOF_IN_SCALAR, {"the quote is not closed", "add it at the end of the text"}},
+      {YAML::ErrorMsg::UNKNOWN_TOKEN, {"a character that begins no value", "quote the text"}},
+      {YAML::ErrorMsg::UNKNOWN_ANCHOR,
+       {"no anchor of this name stands before the alias", "check the name after '*'"}}};
+  const auto known = kMeanings.find(message);
+  if (known == kMeanings.end()) {
+    throw InputError({where.text(), "not YAML: " + message, "", "check the text at and above this place"});
+  }
+  throw InputError({where.text(), std::string(known->second.what), "", std::string(known->second.remedy)});
+}
+
 }  // namespace
 
 YamlNodePtr parse_yaml_file(const std::filesystem::path& path, const Source& included_from) {
@@ -200,17 +244,14 @@ YamlNodePtr parse_yaml_file(const std::filesystem::path& path, const Source& inc
   const std::string text = read_text_file(path, YamlLimits::kFileBytes, included_from);
   refuse_tab_indentation(*file, text);
 
-  TreeBuilder builder(file);
+  TreeBuilder builder(file, text);
   try {
     std::istringstream in(text);
     YAML::Parser parser(in);
     while (parser.HandleNextDocument(builder)) {
     }
   } catch (const YAML::Exception& e) {
-    const Source where{file, e.mark.line + 1, e.mark.column + 1, ""};
-    throw InputError(
-        {where.text(), "this is not YAML: " + e.msg, "",
-         "look for an unclosed bracket or quote, a missing ':' or wrong indentation at or above this place"});
+    refuse_syntax({file, e.mark.line + 1, e.mark.column + 1, ""}, e.msg);
   }
   const YamlNodePtr root = builder.root();
   if (!root || root->kind == Kind::kNull) {

@@ -14,7 +14,7 @@ void read_vehicle(const Value& section, Scene& scene) {
   vehicle.chassis = read_body(scene, keys.required("chassis"));
   if (const auto steering = keys.optional("steering")) {
     for (const auto& [name, value] : steering->named()) {
-      const int joint = index_of(names_of(scene.joints), value, "the joints");
+      const int joint = index_of(scene.joints, value, "the joints");
       const Scene::Joint& steered = scene.joints[static_cast<std::size_t>(joint)];
       if (steered.cut || steered.type != Scene::JointType::kRevolute) {
         value.refuse("a steering angle is the coordinate of a revolute tree joint", "name such a joint");
@@ -76,7 +76,7 @@ void read_output(const Value& section, Scene& scene) {
   if (const auto nodes = keys.optional("nodes")) {
     for (const auto& [name, value] : nodes->named()) {
       Scene::NodeOutput recorded;
-      recorded.body = index_of(names_of(scene.bodies), name, value, "the bodies");
+      recorded.body = index_of(scene.bodies, name, value, "the bodies");
       const Scene::Body& body = scene.bodies[static_cast<std::size_t>(recorded.body)];
       for (const Value& node : value.list()) recorded.nodes.push_back(read_node(node, body));
       output.nodes.push_back(recorded);

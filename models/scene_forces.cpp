@@ -135,7 +135,7 @@ void read_tires(const Value& section, Scene& scene) {
       if (tire.wheel == body)
         wheel.refuse(fmt::format("the tire '{}' is on this wheel already", tire.name), "name another wheel");
     }
-    const int model = index_of(names_of(scene.tire_models), keys.required("model"), "the tire models");
+    const int model = index_of(scene.tire_models, keys.required("model"), "the tire models");
     if (!scene.road)
       value.refuse("a tire needs a road", "add the section 'road', for a flat one as 'road: {}'");
     scene.tires.push_back({name, body, model, value.where()});

@@ -52,22 +52,37 @@ std::vector<std::string> names_of(const std::vector<T>& things) {
   return names;
 }
 
-/// Index of `name`, which stands at `place`; throws InputError with "did you mean" when it is not there.
-inline int index_of(const std::vector<std::string>& names, const std::string& name, const Value& place,
-                    std::string_view kind) {
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (names[i] == name) return static_cast<int>(i);
-  }
-  throw InputError({place.where().text(), fmt::format("'{}' is none of {}", name, kind), "",
-                    did_you_mean(name, names, kind)});
+inline std::vector<std::string> names_of(const std::vector<std::string>& names) {
+  return names;
 }
 
-inline int index_of(const std::vector<std::string>& names, const Value& reference, std::string_view kind) {
-  return index_of(names, reference.text(), reference, kind);
+inline const std::string& name_of(const std::string& name) {
+  return name;
+}
+template <class T>
+const std::string& name_of(const T& thing) {
+  return thing.name;
+}
+
+/// Index of `name`, which stands at `place`, among names or named things; throws InputError with "did you
+/// mean" when it is not there.
+template <class T>
+int index_of(const std::vector<T>& things, const std::string& name, const Value& place,
+             std::string_view kind) {
+  for (std::size_t i = 0; i < things.size(); ++i) {
+    if (name_of(things[i]) == name) return static_cast<int>(i);
+  }
+  throw InputError({place.where().text(), fmt::format("'{}' is none of {}", name, kind), "",
+                    did_you_mean(name, names_of(things), kind)});
+}
+
+template <class T>
+int index_of(const std::vector<T>& things, const Value& reference, std::string_view kind) {
+  return index_of(things, reference.text(), reference, kind);
 }
 
 inline int read_body(const Scene& scene, const Value& reference) {
-  return index_of(names_of(scene.bodies), reference, "the bodies");
+  return index_of(scene.bodies, reference, "the bodies");
 }
 
 }  // namespace wishbone::scene_sections
