@@ -1,0 +1,206 @@
+#include "core/document.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <string_view>
+#include <utility>
+
+#include "core/did_you_mean.h"
+#include "core/error.h"
+#include "core/parameters.h"
+#include "core/yaml.h"
+#include "core/yaml_parser.h"
+
+namespace wishbone {
+namespace {
+
+using Kind = YamlNode::Kind;
+using Entry = YamlNode::Entry;
+
+/// Merges a file and its includes, included ones first.
+class Merger {
+ public:
+  void add_file(const std::filesystem::path& path, const Source& included_from) {
+    const auto identity = std::filesystem::weakly_canonical(path);
+    if (std::find(open_.begin(), open_.end(), identity) != open_.end()) refuse_cycle(path, included_from);
+    if (std::find(done_.begin(), done_.end(), identity) != done_.end()) return;
+    const YamlNodePtr file = parse_yaml_file(path, included_from);
+    open_.push_back(identity);
+    if (const Entry* include = file->find("include")) add_includes(Value(*include, "include"), path);
+    open_.pop_back();
+    done_.push_back(identity);
+    for (const Entry& entry : file->entries) add_section(entry);
+  }
+
+  const std::vector<Entry>& sections() const { return sections_; }
+  const std::vector<Entry>& parameters() const { return parameters_; }
+
+ private:
+  void add_includes(const Value& include, const std::filesystem::path& includer) {
+    const auto add = [&](const Value& name) {
+      add_file((includer.parent_path() / name.text()).lexically_normal(), name.where());
+    };
+    if (!include.is_list()) return add(include);
+    for (const Value& name : include.list()) add(name);
+  }
+
+  [[noreturn]] void refuse_cycle(const std::filesystem::path& path, const Source& included_from) const {
+    std::vector<std::string> chain;
+    for (auto it = std::find(open_.begin(), open_.end(), std::filesystem::weakly_canonical(path));
+         it != open_.end(); ++it) {
+      chain.push_back(it->filename().string());
+    }
+    chain.push_back(path.filename().string());
+    throw InputError({included_from.text(),
+                      fmt::format("the files include one another: {}", fmt::join(chain, " -> ")),
+                      fmt::format("'{}'", path.filename().string()), "remove one of the includes"});
+  }
+
+  void add_section(const Entry& entry) {
+    if (entry.key == "include") return;
+    if (entry.key == "parameters") {
+      const Value section(entry, entry.key);
+      if (!section.is_mapping())
+        section.refuse("a mapping of names is wanted here", "write one 'name: value' per line");
+      parameters_.insert(parameters_.end(), entry.value->entries.begin(), entry.value->entries.end());
+      return;
+    }
+    const auto [known, is_new] = section_index_.emplace(entry.key, sections_.size());
+    if (is_new) {
+      sections_.push_back(entry);
+    } else {
+      Entry& section = sections_[known->second];
+      section = merge(section, entry);
+    }
+  }
+
+  static Entry merge(const Entry& first, const Entry& second) {
+    const YamlNode& a = *first.value;
+    const YamlNode& b = *second.value;
+    if (a.kind == Kind::kScalar && b.kind == Kind::kScalar && a.text == b.text) return first;
+    if (a.kind != Kind::kMapping || b.kind != Kind::kMapping || a.find("select") || b.find("select")) {
+      refuse_twice(second.key, first.where, second);
+    }
+    std::map<std::string_view, const Entry*> known;
+    for (const Entry& entry : a.entries) known.emplace(entry.key, &entry);
+    auto merged = std::make_shared<YamlNode>(a);
+    for (const Entry& entry : b.entries) {
+      const auto other = known.find(entry.key);
+      if (other != known.end()) refuse_twice(second.key + "." + entry.key, other->second->where, entry);
+      merged->entries.push_back(entry);
+    }
+    return {second.key, second.where, merged};
+  }
+
+  [[noreturn]] static void refuse_twice(const std::string& path, const Source& first, const Entry& second) {
+    Source where = second.where;
+    where.path = path;
+    throw InputError(
+        {where.text(), fmt::format("'{}' is defined already, at {}", second.key, first.text()), "",
+         "rename or remove one of the two, or make the difference a parameter of the included file"});
+  }
+
+  std::vector<std::filesystem::path> open_;  // chain of files being read
+  std::vector<std::filesystem::path> done_;
+  std::vector<Entry> sections_;
+  std::map<std::string, std::size_t> section_index_;
+  std::vector<Entry> parameters_;
+};
+
+/// Replaces expressions and selections by what they stand for.
+class Resolver {
+ public:
+  explicit Resolver(Parameters& parameters) : parameters_(parameters) {}
+
+  /// Nothing when a selection chose an empty branch.
+  YamlNodePtr resolve(const YamlNodePtr& node, const std::string& path) {
+    switch (node->kind) {
+      case Kind::kNull:
+        return node;
+      case Kind::kScalar:
+        return parameters_.evaluate(node, path);
+      case Kind::kSequence:
+        return resolve_list(*node, path);
+      case Kind::kMapping:
+        break;
+    }
+    if (const Entry* select = node->find("select")) return resolve_selection(*node, *select, path);
+    auto resolved = std::make_shared<YamlNode>(*node);
+    resolved->entries.clear();
+    for (const Entry& entry : node->entries) {
+      const YamlNodePtr value = resolve(entry.value, path.empty() ? entry.key : path + "." + entry.key);
+      if (value) resolved->entries.push_back({entry.key, entry.where, value});
+    }
+    return resolved;
+  }
+
+ private:
+  YamlNodePtr resolve_list(const YamlNode& node, const std::string& path) {
+    auto resolved = std::make_shared<YamlNode>(node);
+    resolved->items.clear();
+    for (std::size_t i = 0; i < node.items.size(); ++i) {
+      const YamlNodePtr item = resolve(node.items[i], fmt::format("{}[{}]", path, i + 1));
+      if (item) resolved->items.push_back(item);
+    }
+    return resolved;
+  }
+
+  YamlNodePtr resolve_selection(const YamlNode& node, const Entry& select, const std::string& path) {
+    const Value selector(select, path + ".select");
+    const std::string& parameter = selector.text();
+    const YamlNodePtr chosen = parameters_.value(parameter, selector.where());
+    const auto& choices = parameters_.choices(parameter);
+    std::vector<std::string> branches;
+    for (const Entry& entry : node.entries) {
+      if (&entry == &select) continue;
+      branches.push_back(entry.key);
+      if (choices.empty() || std::find(choices.begin(), choices.end(), entry.key) != choices.end()) continue;
+      Source where = entry.where;
+      where.path = path;
+      throw InputError({where.text(),
+                        fmt::format("'{}' is not a choice of the parameter '{}'", entry.key, parameter), "",
+                        did_you_mean(entry.key, choices, "its choices")});
+    }
+    const Entry* branch = chosen->text == "select" ? nullptr : node.find(chosen->text);
+    if (!branch) {
+      selector.refuse(
+          fmt::format("there is no branch for '{}', the value of the parameter", chosen->text),
+          fmt::format("the branches are: {}; add one for '{}'", fmt::join(branches, ", "), chosen->text));
+    }
+    return branch->value->kind == Kind::kNull ? nullptr : resolve(branch->value, path);
+  }
+
+  Parameters& parameters_;
+};
+
+Entry parameters_section(Parameters& parameters) {
+  auto values = std::make_shared<YamlNode>();
+  values->kind = Kind::kMapping;
+  for (const std::string& name : parameters.names())
+    values->entries.push_back({name, {}, parameters.value(name, {})});
+  return {"parameters", {}, values};
+}
+
+}  // namespace
+
+YamlNodePtr load_document(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+  Merger merger;
+  merger.add_file(path, {});
+  Parameters parameters(merger.parameters(), overrides);
+
+  auto root = std::make_shared<YamlNode>();
+  root->kind = Kind::kMapping;
+  root->where.file = std::make_shared<const std::string>(path.string());
+  if (!parameters.names().empty()) root->entries.push_back(parameters_section(parameters));
+  Resolver resolver(parameters);
+  for (const Entry& section : merger.sections()) {
+    const YamlNodePtr value = resolver.resolve(section.value, section.key);
+    if (value) root->entries.push_back({section.key, section.where, value});
+  }
+  return root;
+}
+
+}  // namespace wishbone

@@ -1,0 +1,93 @@
+#include "core/text_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <string_view>
+
+#include "core/error.h"
+
+namespace wishbone {
+namespace {
+
+std::string read_bytes(const std::filesystem::path& path, std::size_t max_bytes, const Source& asked_from) {
+  const std::string name = fmt::format("'{}'", path.string());
+  const auto refuse = [&](const std::string& what, const std::string& remedy) {
+    throw InputError({asked_from.text(), what, name, remedy});
+  };
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) {
+    refuse("there is no such file",
+           "check the name; an included file is looked for relative to the including one");
+  }
+  if (std::filesystem::is_directory(status)) refuse("this is a directory, not a file", "name the file in it");
+
+  std::ifstream in(path, std::ios::binary);
+  if (!in) refuse("the file cannot be opened", "check its permissions");
+  std::string bytes(max_bytes + 1, '\0');
+  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(in.gcount()));
+  if (in.bad()) refuse("the file cannot be read", "check the disk and the permissions");
+  if (bytes.size() > max_bytes) {
+    refuse(fmt::format("the file is larger than {} bytes", max_bytes),
+           "split it into several files and include them");
+  }
+  return bytes;
+}
+
+/// Length of the well-formed UTF-8 sequence at the start of `s`; 0 when there is none (Unicode 15, table
+/// 3-7).
+std::size_t utf8_length(std::string_view s) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(s[i]); };
+  const unsigned char lead = byte(0);
+  if (lead < 0x80) return 1;
+  const std::size_t n = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
+  if (lead < 0xC2 || lead > 0xF4 || s.size() < n) return 0;
+  const unsigned char lowest = lead == 0xE0 ? 0xA0 : lead == 0xF0 ? 0x90 : 0x80;  // no overlong forms
+  const unsigned char highest = lead == 0xED   ? 0x9F
+                                : lead == 0xF4 ? 0x8F
+                                               : 0xBF;  // no surrogates, <= U+10FFFF
+  if (byte(1) < lowest || byte(1) > highest) return 0;
+  for (std::size_t i = 2; i < n; ++i) {
+    if (byte(i) < 0x80 || byte(i) > 0xBF) return 0;
+  }
+  return n;
+}
+
+Source place_at(const std::filesystem::path& path, std::string_view text, std::size_t offset) {
+  const std::string_view before = text.substr(0, offset);
+  const auto line_start = before.rfind('\n') + 1;  // npos + 1 == 0: the first line
+  return {std::make_shared<const std::string>(path.string()),
+          1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
+          1 + static_cast<int>(offset - line_start), ""};
+}
+
+void check_text(const std::filesystem::path& path, std::string_view text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const unsigned char c = static_cast<unsigned char>(text[i]);
+    if ((c < 0x20 && c != '\t' && c != '\n' && c != '\r') || c == 0x7F) {
+      throw InputError({place_at(path, text, i).text(), "the file is not text",
+                        fmt::format("byte 0x{:02x}", c), "name a YAML text file"});
+    }
+    const std::size_t n = utf8_length(text.substr(i));
+    if (n == 0) {
+      throw InputError({place_at(path, text, i).text(), "the file is not UTF-8 text",
+                        fmt::format("byte 0x{:02x}", c), "save it in the encoding UTF-8"});
+    }
+    i += n;
+  }
+}
+
+}  // namespace
+
+std::string read_text_file(const std::filesystem::path& path, std::size_t max_bytes,
+                           const Source& asked_from) {
+  std::string text = read_bytes(path, max_bytes, asked_from);
+  if (text.empty()) throw InputError({path.string(), "the file is empty", "", "write a document into it"});
+  check_text(path, text);
+  return text;
+}
+
+}  // namespace wishbone

@@ -1,0 +1,199 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/source.h"
+#include "core/spatial.h"
+
+namespace wishbone {
+
+/// What the user wrote, checked and in SI units; no behaviour. Everything is described in the design pose and
+/// in one design frame D, which `X_WD` places in the inertial frame W. Bodies, joints, ... refer to one
+/// another by index.
+struct Scene {
+  static constexpr int kGround = -1;
+
+  /// A point where a joint or force takes hold.
+  struct Point {
+    int body = kGround;              ///< index into `bodies`, or kGround
+    int node = 0;                    ///< node of the body's block, from 1; 0: none was named
+    Vector3 p_DP = Vector3::Zero();  ///< position in D [m]; that of the node when one was named
+  };
+
+  /// A rectangular block of 8-node hexahedra, centred at the body origin, edges along the body axes.
+  struct Flexible {
+    Vector3 size = Vector3::Zero();     ///< edge lengths [m]
+    Eigen::Vector3i elements{1, 1, 1};  ///< number of elements along each edge
+    double young = 0;                   ///< Young's modulus [Pa]
+    double poisson = 0;                 ///< Poisson's ratio
+    double density = 0;                 ///< [kg/m3]
+    int modes = 0;                      ///< lowest elastic modes kept
+    std::vector<double> damping;        ///< damping ratio of each kept mode
+  };
+
+  enum class BodyForm { kRigid, kModal };
+  struct Body {
+    std::string name;
+    BodyForm form = BodyForm::kRigid;
+    double mass = 0;                    ///< [kg]; of a modal body: as written, unused (the block has its own)
+    Matrix3 inertia = Matrix3::Zero();  ///< about the mass centre, body axes [kg m2]; modal: as for `mass`
+    Pose X_DB;                          ///< design pose; Bo is the mass centre [m]
+    Vector3 v_WBo = Vector3::Zero();    ///< initial velocity, inertial axes [m/s]; of free bodies
+    Vector3 w_WB_B = Vector3::Zero();   ///< initial angular velocity, body axes [rad/s]; of free bodies
+    std::optional<Flexible> flexible;   ///< always there when modal; gives a rigid body its nodes
+    Source where;
+  };
+
+  enum class JointType { kFixed, kRevolute, kPrismatic, kSpherical, kFree };
+  /// Joins `parent` (first-named) and `child`. A tree joint carries the child, a cut joint closes a loop. At
+  /// zero joint coordinate the bodies are in their design poses; positive turns or slides the child along the
+  /// axis.
+  struct Joint {
+    std::string name;
+    JointType type = JointType::kFixed;
+    bool cut = false;
+    Point parent, child;               ///< coincident in the design pose
+    Vector3 axis_D = Vector3::Zero();  ///< unit axis of revolute and prismatic joints, in D
+    double position = 0;               ///< initial joint coordinate [rad] or [m]
+    double speed = 0;                  ///< initial joint speed [rad/s] or [m/s]
+    int motion = -1;                   ///< index into `motions` that prescribes the coordinate; -1: none
+    Source where;
+  };
+
+  /// Point-to-point spring and damper in parallel.
+  struct Spring {
+    std::string name;
+    Point from, to;
+    double stiffness = 0;    ///< [N/m]
+    double damping = 0;      ///< [N s/m]
+    double free_length = 0;  ///< [m]
+    Source where;
+  };
+
+  /// Constant force at a point and constant moment.
+  struct Load {
+    std::string name;
+    Point point;                       ///< the mass centre unless named
+    Vector3 force = Vector3::Zero();   ///< [N]
+    Vector3 moment = Vector3::Zero();  ///< [N m]
+    bool in_body_axes = false;         ///< otherwise inertial axes
+    Source where;
+  };
+
+  enum class TireForm { kSmooth, kClassic };
+  /// Parameters of the UA tire.
+  struct TireModel {
+    std::string name;
+    TireForm form = TireForm::kSmooth;
+    double radius = 0;                   ///< unloaded, R1 [m]
+    double vertical_stiffness = 0;       ///< Cz [N/m]
+    double damping_ratio = 0;            ///< zeta of the vertical damping
+    double mass = 0;                     ///< mt, which sets the vertical damping [kg]
+    double slip_stiffness = 0;           ///< Cs, force per slip ratio [N]
+    double cornering_stiffness = 0;      ///< C_alpha, force per slip angle [N/rad]
+    double camber_stiffness = 0;         ///< C_gamma, force per camber angle [N/rad]
+    double rolling_resistance = 0;       ///< Kr, moment per load [m]
+    double friction_max = 0;             ///< U0, at zero slip
+    double friction_min = 0;             ///< U1, at full slip
+    bool lag = false;                    ///< slips follow with the relaxation lengths
+    double relaxation_longitudinal = 0;  ///< sigma_kappa [m]; positive when `lag`
+    double relaxation_lateral = 0;       ///< sigma_alpha [m]; positive when `lag`
+    Source where;
+  };
+  /// A tire on a rigid body whose y axis is the spin axis and whose origin is the wheel centre.
+  struct Tire {
+    std::string name;
+    int wheel = kGround;  ///< index into `bodies`
+    int model = -1;       ///< index into `tire_models`
+    Source where;
+  };
+
+  /// Height -depth sin(pi (x - start)/length) while start <= x <= start + length.
+  struct Depression {
+    double start = 0;   ///< [m]
+    double length = 0;  ///< [m]
+    double depth = 0;   ///< [m]; negative: a hump
+  };
+  /// Road of height y tan(bank) + depression, inertial axes.
+  struct Road {
+    double bank = 0;  ///< [rad]
+    std::optional<Depression> depression;
+    Source where;
+  };
+
+  enum class Side { kLeft, kRight };
+  /// tan(wheel) = l tan(command) / (l -+ (w/2) tan(command)), minus on the left.
+  struct Ackermann {
+    double wheelbase = 0;  ///< l [m]
+    double track = 0;      ///< w [m]
+    Side side = Side::kLeft;
+  };
+  /// `change` s((t - time)/duration), s(u) = 6 u^5 - 15 u^4 + 10 u^3 between 0 and 1.
+  struct MotionStep {
+    double time = 0;      ///< [s]
+    double duration = 0;  ///< [s]
+    double change = 0;    ///< [rad] or [m]
+  };
+  /// Prescribed joint coordinate: `start` plus the sum of the steps, then the Ackermann map if there is one.
+  struct Motion {
+    std::string name;
+    double start = 0;  ///< [rad] or [m]
+    std::vector<MotionStep> steps;
+    std::optional<Ackermann> ackermann;
+    Source where;
+  };
+
+  struct SteeringAngle {
+    std::string name;
+    int joint = -1;  ///< index into `joints`: a revolute tree joint
+  };
+  /// Which body and joints the derived vehicle signals are made of.
+  struct Vehicle {
+    int chassis = kGround;
+    std::vector<SteeringAngle> steering;
+    Source where;
+  };
+
+  enum class Form { kAuto, kOde, kIndex1, kGgl };
+  enum class Integrator { kAuto, kAdams, kBdf, kErk };
+  struct Analysis {
+    double duration = 1;  ///< [s]
+    Form form = Form::kAuto;
+    Integrator integrator = Integrator::kAuto;
+    double rtol = 1e-6;              ///< relative tolerance
+    double atol = 1e-8;              ///< absolute tolerance [m, rad, m/s, rad/s]
+    std::optional<double> max_step;  ///< [s]
+    std::optional<int> max_steps;    ///< between two outputs
+    Source where;
+  };
+
+  struct NodeOutput {
+    int body = kGround;
+    std::vector<int> nodes;  ///< from 1
+  };
+  struct Output {
+    double interval = 0.01;         ///< [s]; by default the whole run when that is shorter
+    std::vector<NodeOutput> nodes;  ///< whose deflections are recorded (of modal bodies)
+    Source where;
+  };
+
+  std::string title;
+  std::string text;              ///< the resolved document as YAML; loading it gives the same scene
+  Vector3 gravity{0, 0, -9.81};  ///< inertial axes [m/s2]
+  Pose X_WD;                     ///< placement of the design frame
+  std::vector<Body> bodies;
+  std::vector<Joint> joints;
+  std::vector<Spring> springs;
+  std::vector<Load> loads;
+  std::vector<TireModel> tire_models;
+  std::vector<Tire> tires;
+  std::optional<Road> road;  ///< always there when there are tires
+  std::vector<Motion> motions;
+  std::optional<Vehicle> vehicle;
+  Analysis analysis;
+  Output output;
+};
+
+}  // namespace wishbone

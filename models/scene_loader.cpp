@@ -1,0 +1,70 @@
+#include "models/scene_loader.h"
+
+#include "core/document.h"
+#include "core/yaml.h"
+#include "models/scene_sections.h"
+
+namespace wishbone {
+namespace {
+
+constexpr int kFormatVersion = 1;
+
+/// Turns the design frame about an axis through a point that stays in place: p_WP = o + R (p_DP - o).
+Pose read_placement(const Value& value) {
+  const Mapping keys(value, {"axis", "angle", "origin"});
+  const Matrix3 R_WD = scene_sections::read_rotation(keys.required("axis"), keys.required("angle"));
+  const auto origin = keys.optional("origin");
+  const Vector3 o = origin ? origin->vector3(kLength) : Vector3(Vector3::Zero());
+  return {R_WD, o - R_WD * o};
+}
+
+void read_header(const Mapping& root, Scene& scene) {
+  const Value version = root.required("wishbone");
+  if (version.integer(1, 1000) != kFormatVersion) {
+    version.refuse("this format version is not known", "write 'wishbone: 1', or use a newer wishbone");
+  }
+  if (const auto title = root.optional("title")) scene.title = title->text();
+  if (const auto gravity = root.optional("gravity")) scene.gravity = gravity->vector3(kAcceleration);
+  if (const auto placement = root.optional("placement")) scene.X_WD = read_placement(*placement);
+}
+
+std::vector<std::string> names_in(const std::optional<Value>& section) {
+  std::vector<std::string> names;
+  if (section) {
+    for (const auto& [name, _] : section->named()) names.push_back(name);
+  }
+  return names;
+}
+
+}  // namespace
+
+Scene load_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+  using namespace scene_sections;
+  const YamlNodePtr document = load_document(path, overrides);
+  const Mapping root(
+      Value(document, document->where),
+      {"wishbone", "title", "parameters", "gravity", "placement", "bodies", "joints", "springs", "loads",
+       "tire_models", "tires", "road", "motions", "vehicle", "analysis", "output"});
+  Scene scene;
+  scene.text = dump_yaml(*document);
+  read_header(root, scene);
+  const auto read = [&](std::string_view key, auto reader) {
+    if (const auto section = root.optional(key)) reader(*section, scene);
+  };
+  read_bodies(root.required("bodies"), scene);
+  if (const auto joints = root.optional("joints"))
+    read_joints(*joints, names_in(root.optional("motions")), scene);
+  check_tree(scene);
+  read("motions", read_motions);
+  read("springs", read_springs);
+  read("loads", read_loads);
+  read("road", read_road);
+  read("tire_models", read_tire_models);
+  read("tires", read_tires);
+  read("vehicle", read_vehicle);
+  read("analysis", read_analysis);
+  read("output", read_output);
+  return scene;
+}
+
+}  // namespace wishbone

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/did_you_mean.h"
+#include "core/yaml.h"
+#include "models/scene.h"
+
+/// Readers of the sections of a scene file, for the scene loader only. Each fills its part of the scene and
+/// relies on the parts that were read before it: bodies, then joints, then the rest.
+namespace wishbone::scene_sections {
+
+void read_bodies(const Value& section, Scene& scene);
+void read_joints(const Value& section, const std::vector<std::string>& motion_names, Scene& scene);
+void read_springs(const Value& section, Scene& scene);
+void read_loads(const Value& section, Scene& scene);
+void read_tire_models(const Value& section, Scene& scene);
+void read_tires(const Value& section, Scene& scene);
+void read_road(const Value& section, Scene& scene);
+void read_motions(const Value& section, Scene& scene);
+void read_vehicle(const Value& section, Scene& scene);
+void read_analysis(const Value& section, Scene& scene);
+void read_output(const Value& section, Scene& scene);
+
+/// Checks that span sections: the joints form a tree, carried bodies have no velocity of their own.
+void check_tree(const Scene& scene);
+
+/// {axis, angle} as a rotation matrix.
+Matrix3 read_rotation(const Value& axis, const Value& angle);
+
+/// Number of nodes of a block, and the position of one of them (from 1) in body axes [m]. Nodes are counted
+/// section by section along x, within a section row by row in z, the rows alternately along +y and -y.
+int block_node_count(const Scene::Flexible& block);
+Vector3 block_node_position(const Scene::Flexible& block, int node);
+
+/// A node number of a body (from 1); throws InputError when the body has no such node.
+int read_node(const Value& node, const Scene::Body& body);
+
+/// The point of a body that is named by a node or by a position in D, by default the mass centre.
+Scene::Point read_point(const Scene& scene, int body, const std::optional<Value>& at,
+                        const std::optional<Value>& node, const Value& place);
+
+template <class T>
+std::vector<std::string> names_of(const std::vector<T>& things) {
+  std::vector<std::string> names;
+  for (const T& thing : things) names.push_back(thing.name);
+  return names;
+}
+
+inline std::vector<std::string> names_of(const std::vector<std::string>& names) {
+  return names;
+}
+
+inline const std::string& name_of(const std::string& name) {
+  return name;
+}
+template <class T>
+const std::string& name_of(const T& thing) {
+  return thing.name;
+}
+
+/// Index of `name`, which stands at `place`, among names or named things; throws InputError with "did you
+/// mean" when it is not there.
+template <class T>
+int index_of(const std::vector<T>& things, const std::string& name, const Value& place,
+             std::string_view kind) {
+  for (std::size_t i = 0; i < things.size(); ++i) {
+    if (name_of(things[i]) == name) return static_cast<int>(i);
+  }
+  throw InputError({place.where().text(), fmt::format("'{}' is none of {}", name, kind), "",
+                    did_you_mean(name, names_of(things), kind)});
+}
+
+template <class T>
+int index_of(const std::vector<T>& things, const Value& reference, std::string_view kind) {
+  return index_of(things, reference.text(), reference, kind);
+}
+
+inline int read_body(const Scene& scene, const Value& reference) {
+  return index_of(scene.bodies, reference, "the bodies");
+}
+
+}  // namespace wishbone::scene_sections
