@@ -82,7 +82,8 @@ TEST_F(Document, OverridesMustFitTheDefault) {
             "  its default is 10 m/s");
   EXPECT_EQ(refusal(kText, {"speed=3 knotts"}),
             "--set speed=3 knotts: parameters.speed: error: unknown unit 'knotts' (got '3 knotts')\n"
-            "  write units such as km/h, kN/m, N s/m, kg m2, MPa, deg, ms, %; a plain number is in SI units");
+            "  write units as in 120 km/h, 47 kN/m, 4 kN s/m, 2 kg m2, 6 deg, 5 ms or 5 %; a plain number is "
+            "in SI units");
   EXPECT_EQ(
       refusal(kText, {"kind=c"}),
       "--set kind=c: parameters.kind: error: not a choice of the parameter 'kind' (form of it) (got 'c')\n"

@@ -67,10 +67,10 @@ TEST(Units, PlainNumbersKeepEveryBit) {
 TEST(Units, WrongDimensionIsToldByBothNames) {
   EXPECT_EQ(message_of<InputError>([] { parse_quantity("0.5 m", kStiffness); }),
             "error: wrong dimension: stiffness [N/m] is wanted, this is length [m] (got '0.5 m')\n"
-            "  give it in N/m or in a unit that converts to it");
+            "  give it in N/m, or in a unit that converts to it");
   EXPECT_EQ(message_of<InputError>([] { parse_quantity("3 kelvin", kLength); }),
             "error: wrong dimension: length [m] is wanted, this is [K] (got '3 kelvin')\n"
-            "  give it in m or in a unit that converts to it");
+            "  give it in m, or in a unit that converts to it");
 }
 
 TEST(Units, RadianIsADimension) {

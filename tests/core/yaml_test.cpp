@@ -78,10 +78,12 @@ TEST_F(Yaml, WrongTypesAreToldWithPlaceAndRemedy) {
   EXPECT_EQ(complaint([&] { x("x: heavy").number(kMass); }),
             "a.yaml:1:4: x: error: not a finite number (got 'heavy')\n"
             "  write a number such as 0.5 or 1e3, or a number and a unit such as 120 km/h");
-  EXPECT_EQ(complaint([&] { x("x: 2.5").integer(1, 4); }),
-            "a.yaml:1:4: x: error: not a whole number in range (got '2.5')\n  give one from 1 to 4");
-  EXPECT_EQ(complaint([&] { x("x: 1e99").integer(1, 4); }),
-            "a.yaml:1:4: x: error: not a whole number in range (got '1e99')\n  give one from 1 to 4");
+  EXPECT_EQ(
+      complaint([&] { x("x: 2.5").integer(1, 4); }),
+      "a.yaml:1:4: x: error: a whole number from 1 to 4 is wanted here (got '2.5')\n  give one of them");
+  EXPECT_EQ(
+      complaint([&] { x("x: 1e99").integer(1, 4); }),
+      "a.yaml:1:4: x: error: a whole number from 1 to 4 is wanted here (got '1e99')\n  give one of them");
   EXPECT_EQ(complaint([&] { x("x: [1, 2]").vector3(kLength); }),
             "a.yaml:1:1: x: error: a list of three numbers (length [m]) is wanted here, not of 2\n  write "
             "[x, y, z]");
@@ -104,7 +106,7 @@ TEST_F(Yaml, UnknownAndMissingKeysAreNamed) {
   EXPECT_EQ(complaint([&] {
               Mapping(x("x: {damping: 1}"), {"stiffness", "damping"}).required("stiffness");
             }),
-            "a.yaml:1:1: x: error: the key 'stiffness' is missing\n  add 'stiffness: ...'");
+            "a.yaml:1:1: x: error: the key 'stiffness' is missing\n  add 'stiffness: ...' here");
   EXPECT_EQ(complaint([&] { x("x:\n"); }),
             "a.yaml:1:1: x: error: the key has no value\n  write one after the ':' or remove the key");
   EXPECT_EQ(complaint([&] { Mapping(x("x: 5"), {"mass"}); }),
