@@ -16,6 +16,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using VectorX = Eigen::VectorXd;
 using MatrixX = Eigen::MatrixXd;
 using Matrix3X = Eigen::Matrix3Xd;
+using Matrix6X = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 using Quaternion = Eigen::Quaterniond;
 
 /// Pose X_AB: rotation R_AB (B axes to A axes) and position p_AB of Bo from Ao, in A.

@@ -1,0 +1,115 @@
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/command.h"
+#include "app/meta_text.h"
+#include "app/table.h"
+#include "core/error.h"
+#include "core/hdf5.h"
+
+namespace wishbone {
+
+namespace {
+
+struct Options {
+  std::string file;
+  bool json = false;
+};
+
+struct DatasetFacts {
+  std::string path, units, frame, about;
+  hdf5::Shape shape;
+};
+
+/// What a person or a program wants to know about any HDF5 file of wishbone, a result or a set of modes.
+struct Facts {
+  std::vector<DatasetFacts> datasets;
+  std::map<std::string, hdf5::Value> meta, run;
+  VectorX time;  ///< empty when the file has none
+};
+
+Facts gather(const hdf5::File& file) {
+  Facts facts;
+  for (const std::string& path : file.dataset_paths()) {
+    const hdf5::Dataset dataset = file.open_dataset(path);
+    facts.datasets.push_back({path, dataset.text_attribute("units"), dataset.text_attribute("frame"),
+                              dataset.text_attribute("about"), dataset.shape()});
+  }
+  if (file.contains("/meta")) facts.meta = file.open_group("/meta").attributes();
+  if (file.contains("/meta/run")) facts.run = file.open_group("/meta/run").attributes();
+  if (file.contains("/time")) facts.time = file.read_matrix("/time");
+  return facts;
+}
+
+void print_meta(const std::map<std::string, hdf5::Value>& meta) {
+  for (const auto& [name, value] : meta) {
+    const std::string text = text_of(value);
+    const auto lines = std::count(text.begin(), text.end(), '\n');
+    fmt::print("  {}: {}\n", name,
+               lines == 0 ? text : fmt::format("text of {} lines (--json shows it)", lines));
+  }
+}
+
+void print_lines(const Facts& facts, const Options& options) {
+  fmt::print("{}\n", options.file);
+  if (const auto status = facts.meta.find("status"); status != facts.meta.end())
+    fmt::print("status: {}\n", text_of(status->second));
+  if (facts.time.size() > 0)
+    fmt::print("time: {:.6g} s to {:.6g} s, {} rows\n", facts.time[0], facts.time[facts.time.size() - 1],
+               facts.time.size());
+  fmt::print("\n");
+  Table table({"dataset", "shape", "unit", "frame", "about"}, 5);
+  for (const DatasetFacts& d : facts.datasets)
+    table.add_row({d.path, fmt::format("[{}]", fmt::join(d.shape, ", ")), d.units, d.frame, d.about});
+  fmt::print("{}", table.text());
+  if (!facts.meta.empty()) fmt::print("\nmeta\n");
+  print_meta(facts.meta);
+  if (!facts.run.empty()) fmt::print("\nexecution\n");
+  print_meta(facts.run);
+}
+
+nlohmann::ordered_json json_of_meta(const std::map<std::string, hdf5::Value>& meta) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::object();
+  for (const auto& [name, value] : meta) out[name] = json_of(value);
+  return out;
+}
+
+void print_json(const Facts& facts, const Options& options) {
+  nlohmann::ordered_json out{{"file", options.file}};
+  if (facts.time.size() > 0)
+    out["time"] = {
+        {"first", facts.time[0]}, {"last", facts.time[facts.time.size() - 1]}, {"rows", facts.time.size()}};
+  out["datasets"] = nlohmann::ordered_json::array();
+  for (const DatasetFacts& d : facts.datasets)
+    out["datasets"].push_back(
+        {{"path", d.path}, {"shape", d.shape}, {"units", d.units}, {"frame", d.frame}, {"about", d.about}});
+  out["meta"] = json_of_meta(facts.meta);
+  out["run"] = json_of_meta(facts.run);
+  fmt::print("{}\n", out.dump(2));
+}
+
+ExitCode run(const Options& options) {
+  const Facts facts = gather(hdf5::File::open(options.file));
+  if (options.json)
+    print_json(facts, options);
+  else
+    print_lines(facts, options);
+  return kDone;
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, ExitCode& exit_code) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("info", "Tell what is in a file: status, time span, datasets with their units");
+  command->add_option("FILE", options->file, "HDF5 file written by wishbone; a .partial one too")->required();
+  command->add_flag("--json", options->json, "print JSON");
+  command->footer("Example:\n  wishbone info out.h5");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace wishbone

@@ -1,0 +1,177 @@
+#include "bodies/modal_body.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "core/error.h"
+
+namespace wishbone {
+namespace {
+
+using Points = ModalBodyState::Points;
+using ConstVectorMap = Eigen::Map<const VectorX>;
+
+/// The points of a p x 3 array as one vector, x rows first: the rows of ModalBody::shapes_.
+Eigen::Map<VectorX> stacked(Points& points) {
+  return {points.data(), points.size()};
+}
+Eigen::Map<const VectorX> stacked(const Points& points) {
+  return {points.data(), points.size()};
+}
+
+/// sum a_i x b_i over the rows of two arrays of points.
+Vector3 sum_of_cross_products(const Points& a, const Points& b) {
+  return {a.col(1).dot(b.col(2)) - a.col(2).dot(b.col(1)), a.col(2).dot(b.col(0)) - a.col(0).dot(b.col(2)),
+          a.col(0).dot(b.col(1)) - a.col(1).dot(b.col(0))};
+}
+
+/// J = tr(B) 1 - B,  B = sum b_i b_i^T
+Matrix3 inertia(const Points& b) {
+  const Matrix3 B = b.transpose().lazyProduct(b);
+  return B.trace() * Matrix3::Identity() - B;
+}
+
+/// Interface nodes first, the others after them in their own order.
+std::vector<int> interface_first(const ModeSet& modes, const std::vector<int>& interface_node_ids) {
+  std::vector<int> order;
+  std::vector<bool> taken(modes.node_count(), false);
+  for (int id : interface_node_ids) {
+    const int node = modes.node_index(id);
+    if (taken[node])
+      throw InputError({"modal body", "an interface node must be named once", fmt::format("node {}", id),
+                        "let every joint and force at this node share one interface"});
+    taken[node] = true;
+    order.push_back(node);
+  }
+  for (int node = 0; node < modes.node_count(); ++node)
+    if (!taken[node]) order.push_back(node);
+  return order;
+}
+
+/// Rows sqrt(m_i) [s_x s_y s_z | Psi_x | Psi_y | Psi_z] of the given nodes, p x 3 (m + 1).
+MatrixX mass_weighted_rows(const ModeSet& modes, std::span<const int> nodes) {
+  const int m = modes.mode_count();
+  MatrixX rows(nodes.size(), 3 * (m + 1));
+  for (Eigen::Index r = 0; r < rows.rows(); ++r) {
+    const int i = nodes[r];
+    rows.row(r).head<3>() = modes.node_position.col(i).transpose();
+    for (int axis = 0; axis < 3; ++axis)
+      rows.row(r).segment(3 + axis * m, m) = modes.shapes.row(3 * i + axis);
+    rows.row(r) *= std::sqrt(modes.node_mass[i]);
+  }
+  return rows;
+}
+
+/// As few rows with the same second moments: A = Q R with Q^T Q = 1 gives A^T A = R^T R.
+MatrixX equivalent_rows(const MatrixX& rows) {
+  if (rows.rows() <= rows.cols()) return rows;
+  const Eigen::HouseholderQR<MatrixX> qr(rows);
+  return qr.matrixQR().topRows(rows.cols()).triangularView<Eigen::Upper>();
+}
+
+}  // namespace
+
+ModalBody::ModalBody(ModeSet modes, const std::vector<int>& interface_node_ids) : modes_(std::move(modes)) {
+  modes_.validate();
+  mass_ = modes_.mass();
+  damping_ = 2 * modes_.damping_ratio.cwiseProduct(modes_.omega);
+  stiffness_ = modes_.omega.cwiseAbs2();
+
+  const std::vector<int> order = interface_first(modes_, interface_node_ids);
+  const std::span<const int> nodes(order);
+  const int k = static_cast<int>(interface_node_ids.size()), m = mode_count();
+  inverse_root_mass_.resize(k);
+  for (int i = 0; i < k; ++i) {
+    interface_shapes_.push_back(modes_.shapes.middleRows<3>(3 * order[i]));
+    inverse_root_mass_[i] = 1 / std::sqrt(modes_.node_mass[order[i]]);
+  }
+
+  const MatrixX own = mass_weighted_rows(modes_, nodes.first(k));
+  const MatrixX others = equivalent_rows(mass_weighted_rows(modes_, nodes.subspan(k)));
+  MatrixX rows(own.rows() + others.rows(), own.cols());
+  rows << own, others;
+  s_ = rows.leftCols<3>();
+  shapes_.resize(3 * rows.rows(), m);
+  for (int axis = 0; axis < 3; ++axis)
+    shapes_.middleRows(axis * rows.rows(), rows.rows()) = rows.middleCols(3 + axis * m, m);
+}
+
+ModalBodyState ModalBody::make_state() const {
+  const int m = mode_count(), k = interface_count();
+  ModalBodyState state;
+  state.z = state.zdot = state.h_bias = VectorX::Zero(m);
+  state.S = Matrix3X::Zero(3, m);
+  state.interface_b = state.interface_delta_dot = Matrix3X::Zero(3, k);
+  state.delta = state.b = state.delta_dot = state.bias = Points::Zero(s_.rows(), 3);
+  const std::vector<double> rest(m, 0.0);
+  set_position(rest, state);
+  set_velocity(Vector3::Zero(), rest, state);
+  return state;
+}
+
+void ModalBody::set_position(std::span<const double> z, ModalBodyState& state) const {
+  const Eigen::Index p = s_.rows(), k = interface_count();
+  state.z = ConstVectorMap(z.data(), mode_count());
+  // delta_i = Psi_i z,  b_i = s_i + delta_i
+  stacked(state.delta).noalias() = shapes_ * state.z;
+  state.b = s_ + state.delta;
+  state.interface_b = (inverse_root_mass_.asDiagonal() * state.b.topRows(k)).transpose();
+  state.J = inertia(state.b);
+  // S = sum delta_i x Psi_i (sum s_i x Psi_i vanishes in mean axes)
+  const auto X = shapes_.topRows(p), Y = shapes_.middleRows(p, p), Z = shapes_.bottomRows(p);
+  const auto dx = state.delta.col(0), dy = state.delta.col(1), dz = state.delta.col(2);
+  state.S.row(0).noalias() = dy.transpose() * Z;
+  state.S.row(0).noalias() -= dz.transpose() * Y;
+  state.S.row(1).noalias() = dz.transpose() * X;
+  state.S.row(1).noalias() -= dx.transpose() * Z;
+  state.S.row(2).noalias() = dx.transpose() * Y;
+  state.S.row(2).noalias() -= dy.transpose() * X;
+}
+
+void ModalBody::set_velocity(const Vector3& w_B, std::span<const double> zdot, ModalBodyState& state) const {
+  const Eigen::Index k = interface_count();
+  state.w_B = w_B;
+  state.zdot = ConstVectorMap(zdot.data(), mode_count());
+  // delta_i' = Psi_i z'
+  stacked(state.delta_dot).noalias() = shapes_ * state.zdot;
+  state.interface_delta_dot = (inverse_root_mass_.asDiagonal() * state.delta_dot.topRows(k)).transpose();
+  // bias_i = w x (w x b_i) + 2 w x delta_i', a row for each point
+  const Matrix3 w = skew(w_B), ww = w * w;
+  state.bias.noalias() = state.b.lazyProduct(ww.transpose());
+  state.bias.noalias() += state.delta_dot.lazyProduct(2 * w.transpose());
+  // t = sum b_i x bias_i,  h = sum Psi_i^T bias_i + 2 zeta omega z' + omega^2 z
+  state.t_bias = sum_of_cross_products(state.b, state.bias);
+  state.h_bias.noalias() = shapes_.transpose() * stacked(std::as_const(state.bias));
+  state.h_bias += damping_.cwiseProduct(state.zdot) + stiffness_.cwiseProduct(state.z);
+}
+
+double ModalBody::kinetic_energy(const Vector3& v_WBo, const ModalBodyState& state) const {
+  // sum m_i |w x b_i + delta_i'|^2 = w.J w + 2 w.S z' + z'.z'
+  const Vector3 Sz = state.S * state.zdot;
+  return 0.5 * (mass_ * v_WBo.squaredNorm() + state.w_B.dot(state.J * state.w_B + 2 * Sz) +
+                state.zdot.squaredNorm());
+}
+
+double ModalBody::elastic_energy(const ModalBodyState& state) const {
+  return 0.5 * stiffness_.dot(state.z.cwiseAbs2());
+}
+
+double ModalBody::mode_energy(int mode, const ModalBodyState& state) const {
+  return 0.5 * (state.zdot[mode] * state.zdot[mode] + stiffness_[mode] * state.z[mode] * state.z[mode]);
+}
+
+double ModalBody::damping_power(const ModalBodyState& state) const {
+  return damping_.dot(state.zdot.cwiseAbs2());
+}
+
+Vector3 ModalBody::angular_momentum(const ModalBodyState& state) const {
+  return state.J * state.w_B + state.S * state.zdot;
+}
+
+Vector3 ModalBody::deflection(int node_id, const ModalBodyState& state) const {
+  return modes_.shapes.middleRows<3>(3 * modes_.node_index(node_id)) * state.z;
+}
+
+}  // namespace wishbone

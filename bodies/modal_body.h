@@ -1,0 +1,98 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "bodies/mode_set.h"
+
+namespace wishbone {
+
+/// Position, velocity and what follows from them of one ModalBody. Made by ModalBody::make_state(), which
+/// sizes every array once. All components are in body axes; b_i = s_i + delta_i and delta_i' are seen from
+/// the body frame.
+struct ModalBodyState {
+  // Position stage, written by set_position().
+  VectorX z;                    ///< m, modal coordinates [m sqrt(kg)]
+  Matrix3X interface_b;         ///< 3 x k, p_BoP of each interface node [m]
+  Matrix3 J = Matrix3::Zero();  ///< inertia about Bo of the deformed body, -sum m_i b_i~ b_i~ [kg m2]
+  Matrix3X S;                   ///< 3 x m, sum m_i delta_i~ Psi_i [m sqrt(kg)]
+
+  // Velocity stage, written by set_velocity().
+  VectorX zdot;                      ///< m [m sqrt(kg)/s]
+  Vector3 w_B = Vector3::Zero();     ///< angular velocity of the body axes [rad/s]
+  Matrix3X interface_delta_dot;      ///< 3 x k, velocity in the body axes of each interface node [m/s]
+  Vector3 t_bias = Vector3::Zero();  ///< w x (J w) + 2 sum m_i b_i x (w x delta_i') [N m]
+  VectorX h_bias;  ///< m, sum m_i Psi_i^T (w x (w x b_i) + 2 w x delta_i') + 2 zeta omega z' + omega^2 z
+
+  // Mass-weighted points (rows) used by the sums; see ModalBody.
+  using Points = Eigen::Matrix<double, Eigen::Dynamic, 3>;
+  Points delta;      ///< sqrt(m_i) delta_i
+  Points b;          ///< sqrt(m_i) b_i
+  Points delta_dot;  ///< sqrt(m_i) delta_i'
+  Points bias;       ///< sqrt(m_i) (w x (w x b_i) + 2 w x delta_i')
+};
+
+/// Flexible body in modal coordinates z, with mean axes B as its frame: Bo is the mass centre.
+///
+/// Kinetic energy T = 1/2 sum m_i |v_Bo + w x b_i + delta_i'|^2, all in body components, gives for the
+/// unknowns (v_Bo', w', z'') with F, N the resultant force and moment about Bo and f_i the nodal forces
+///     m (v_Bo' + w x v_Bo)        = F
+///     J(z) w' + S(z) z'' + t_bias = N
+///     S(z)^T w' + z'' + h_bias    = sum Psi_i^T f_i.
+/// Translation couples with nothing and the modal mass is the identity, for the modes of a ModeSet are
+/// mass-normalised and orthogonal to rigid motion. Nothing but modal truncation is left out, so a free
+/// undamped body conserves energy and both momenta. Damping acts on z alone: it leaves both momenta as they
+/// are. Source: docs/theory.md section 3, eqs. [5.47-5.64], where the source keeps the leading terms only;
+/// the terms of second order in (z, z') make the equations follow from T.
+///
+/// The sums are taken over mass points in mass-weighted form, sqrt(m_i) b_i and sqrt(m_i) Psi_i, in which m_i
+/// does not appear. The interface nodes are points of their own. All other nodes enter only through second
+/// moments sum (m_i [s_i Psi_i]^T [s_i Psi_i]), and where more than 3 (m + 1) of them remain they are
+/// exchanged for that number of equivalent points with the same moments, so the cost of an evaluation does
+/// not grow with the mesh.
+class ModalBody {
+ public:
+  /// Forces may act at the interface nodes, given by id; their order numbers them from 0.
+  /// Throws InputError if the set is not valid (ModeSet::validate), or a node is unknown or named twice.
+  ModalBody(ModeSet modes, const std::vector<int>& interface_node_ids);
+
+  int mode_count() const { return modes_.mode_count(); }
+  int interface_count() const { return static_cast<int>(interface_shapes_.size()); }
+  double mass() const { return mass_; }
+  const ModeSet& modes() const { return modes_; }
+  /// Psi_i (3 x m) of an interface node: its modal load is Psi_i^T f.
+  const Matrix3X& interface_shape(int interface) const { return interface_shapes_[interface]; }
+
+  /// Arrays of the right size, at rest and undeformed.
+  ModalBodyState make_state() const;
+
+  /// Deflections, interface positions, J(z) and S(z). Allocates nothing.
+  void set_position(std::span<const double> z, ModalBodyState& state) const;
+
+  /// Interface velocities, t_bias and h_bias at the position set before. Allocates nothing.
+  void set_velocity(const Vector3& w_B, std::span<const double> zdot, ModalBodyState& state) const;
+
+  /// 1/2 m v^2 + 1/2 sum m_i |w x b_i + delta_i'|^2 [J], v_WBo in any axes.
+  double kinetic_energy(const Vector3& v_WBo, const ModalBodyState& state) const;
+  /// 1/2 sum omega_j^2 z_j^2 [J].
+  double elastic_energy(const ModalBodyState& state) const;
+  /// Energy 1/2 (z_j'^2 + omega_j^2 z_j^2) of one mode [J], without its coupling to the rotation.
+  double mode_energy(int mode, const ModalBodyState& state) const;
+  /// Power lost to damping, sum 2 zeta_j omega_j z_j'^2 >= 0 [W].
+  double damping_power(const ModalBodyState& state) const;
+  /// Angular momentum about Bo, J w + S z', body components [N m s].
+  Vector3 angular_momentum(const ModalBodyState& state) const;
+  /// delta_i of any node of the body, body components [m]. Throws InputError if the node is unknown.
+  Vector3 deflection(int node_id, const ModalBodyState& state) const;
+
+ private:
+  ModeSet modes_;
+  double mass_ = 0;
+  std::vector<Matrix3X> interface_shapes_;
+  VectorX inverse_root_mass_;    ///< k, 1/sqrt(m_i) of the interface nodes
+  ModalBodyState::Points s_;     ///< p x 3, sqrt(m_i) s_i: the interface nodes first, then the other points
+  MatrixX shapes_;               ///< 3p x m, sqrt(m_i) Psi_i: all x rows, then all y rows, then all z rows
+  VectorX damping_, stiffness_;  ///< m, 2 zeta omega and omega^2
+};
+
+}  // namespace wishbone

@@ -1,0 +1,140 @@
+#include "bodies/mode_set.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/error.h"
+
+namespace wishbone {
+namespace {
+
+[[noreturn]] void reject(std::string what, std::string value, std::string remedy) {
+  throw InputError({"mode set", std::move(what), std::move(value), std::move(remedy)});
+}
+
+void check_sizes(const ModeSet& set) {
+  const Eigen::Index n = set.node_count(), m = set.mode_count();
+  if (n < 3) reject("a flexible body needs at least three nodes", fmt::format("{}", n), "give more nodes");
+  const bool fits = set.node_mass.size() == n && set.node_position.cols() == n &&
+                    set.shapes.rows() == 3 * n && set.shapes.cols() == m && set.damping_ratio.size() == m;
+  if (!fits)
+    reject(
+        fmt::format(
+            "{} nodes and {} frequencies need {} masses and positions, {} x {} shapes and {} damping ratios",
+            n, m, n, 3 * n, m, m),
+        fmt::format("{} masses, {} positions, {} x {} shapes, {} damping ratios", set.node_mass.size(),
+                    set.node_position.cols(), set.shapes.rows(), set.shapes.cols(), set.damping_ratio.size()),
+        "give every node and every mode its row and column");
+  if (static_cast<Eigen::Index>(std::set<int>(set.node_ids.begin(), set.node_ids.end()).size()) != n)
+    reject("node ids must differ from each other", "a repeated id", "number each node once");
+}
+
+void check_values(const ModeSet& set) {
+  for (int i = 0; i < set.node_count(); ++i)
+    if (!(set.node_mass[i] > 0))
+      reject(fmt::format("the mass of node {} must be positive", set.node_ids[i]),
+             fmt::format("{:g} kg", set.node_mass[i]),
+             "leave massless nodes out, or lump the mass so that every node has its share");
+  for (int j = 0; j < set.mode_count(); ++j) {
+    if (!(set.omega[j] > 0))
+      reject(fmt::format("the frequency of elastic mode {} must be positive", j + 1),
+             fmt::format("{:g} rad/s", set.omega[j]),
+             "leave the rigid-body modes out: they are built from geometry");
+    if (j > 0 && set.omega[j] < set.omega[j - 1])
+      reject("frequencies must ascend", fmt::format("mode {} at {:g} rad/s", j + 1, set.omega[j]),
+             "sort the modes");
+    if (!(set.damping_ratio[j] >= 0))
+      reject(fmt::format("the damping ratio of mode {} must not be negative", j + 1),
+             fmt::format("{:g}", set.damping_ratio[j]), "give zero for an undamped mode");
+  }
+  if (!set.shapes.allFinite() || !set.node_position.allFinite())
+    reject("shapes and positions must be finite numbers", "an infinity or not a number",
+           "check how they were read");
+}
+
+void check_orthogonality(const ModeSet& set) {
+  constexpr double tolerance = ModeSet::kOrthogonalityTolerance;
+  const Vector3 centre = set.node_position * set.node_mass / set.mass();
+  const double gyration_radius = std::sqrt(set.inertia().trace() / set.mass());
+  if (!(centre.norm() <= tolerance * gyration_radius))
+    reject("node positions must be taken about the mass centre",
+           fmt::format("mass centre at ({:g}, {:g}, {:g}) m", centre.x(), centre.y(), centre.z()),
+           "subtract the mass centre from every position");
+
+  const VectorX mass_of_row = set.node_mass.transpose().replicate(3, 1).reshaped();
+  const MatrixX M_shapes = mass_of_row.asDiagonal() * set.shapes;
+  const int m = set.mode_count();
+  if (m == 0) return;
+  const double self = (set.shapes.transpose() * M_shapes - MatrixX::Identity(m, m)).cwiseAbs().maxCoeff();
+  if (!(self <= tolerance))
+    reject("modes must be mass-orthonormal, Psi^T M Psi = 1", fmt::format("largest error {:.3g}", self),
+           "divide each mode by the root of its modal mass and orthogonalise modes of equal frequency");
+  const double rigid =
+      (rigid_body_modes(set.node_mass, set.node_position).transpose() * M_shapes).cwiseAbs().maxCoeff();
+  if (!(rigid <= tolerance))
+    reject("elastic modes must be mass-orthogonal to rigid-body motion",
+           fmt::format("largest product {:.3g}", rigid),
+           "remove the rigid-body part of each mode with the lumped masses of this set");
+}
+
+}  // namespace
+
+Matrix3 point_mass_inertia(const VectorX& node_mass, const Matrix3X& node_position) {
+  // J = tr(B) 1 - B,  B = sum m_i s_i s_i^T
+  const Matrix3 B = node_position * node_mass.asDiagonal() * node_position.transpose();
+  return B.trace() * Matrix3::Identity() - B;
+}
+
+MatrixX rigid_body_modes(const VectorX& node_mass, const Matrix3X& node_position) {
+  const Matrix3 J = point_mass_inertia(node_mass, node_position);
+  const Eigen::SelfAdjointEigenSolver<Matrix3> principal(J, Eigen::EigenvaluesOnly);
+  if (!(principal.eigenvalues()[0] > 1e-12 * principal.eigenvalues()[2]))
+    reject("the nodes of a flexible body must not lie on one line",
+           fmt::format("smallest principal inertia {:g} kg m2", principal.eigenvalues()[0]),
+           "give nodes that span the cross-section too");
+
+  const Eigen::LLT<Matrix3> L(J);
+  const double inverse_root_mass = 1 / std::sqrt(node_mass.sum());
+  MatrixX modes(3 * node_mass.size(), 6);
+  for (Eigen::Index i = 0; i < node_mass.size(); ++i) {
+    modes.block<3, 3>(3 * i, 0) = inverse_root_mass * Matrix3::Identity();
+    // -s~ L^-T = (L^-1 s~)^T
+    modes.block<3, 3>(3 * i, 3) = L.matrixL().solve(skew(node_position.col(i))).transpose();
+  }
+  return modes;
+}
+
+int ModeSet::node_index(int node_id) const {
+  const auto found = std::find(node_ids.begin(), node_ids.end(), node_id);
+  if (found == node_ids.end())
+    reject("there is no such node", fmt::format("node {}", node_id),
+           fmt::format("name one of the {} nodes of the flexible body", node_count()));
+  return static_cast<int>(found - node_ids.begin());
+}
+
+Matrix3 ModeSet::inertia() const {
+  return point_mass_inertia(node_mass, node_position);
+}
+
+ModeSet ModeSet::lowest(int count) const {
+  if (count < 0 || count > mode_count())
+    reject(fmt::format("this set has {} modes", mode_count()), fmt::format("{}", count),
+           "ask for at most that many");
+  return {node_ids,
+          node_mass,
+          node_position,
+          omega.head(count),
+          shapes.leftCols(count),
+          damping_ratio.head(count)};
+}
+
+void ModeSet::validate() const {
+  check_sizes(*this);
+  check_values(*this);
+  check_orthogonality(*this);
+}
+
+}  // namespace wishbone

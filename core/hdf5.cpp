@@ -1,0 +1,542 @@
+#include "core/hdf5.h"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+#include <hdf5.h>
+#include <hdf5_hl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <type_traits>
+#include <utility>
+
+#include "core/error.h"
+
+namespace wishbone::hdf5 {
+
+static_assert(std::is_same_v<Handle::Id, hid_t>, "HDF5 1.10 or later has 64-bit identifiers");
+
+namespace {
+
+/// Keeps the library from printing its error stack; restores the caller's setting.
+class Silence {
+ public:
+  Silence() {
+    H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  }
+  ~Silence() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+
+ private:
+  H5E_auto2_t print_ = nullptr;
+  void* data_ = nullptr;
+};
+
+/// The innermost message of the current error stack: the cause, not the chain of callers.
+std::string library_message() {
+  std::string message;
+  H5Ewalk2(
+      H5E_DEFAULT, H5E_WALK_UPWARD,
+      [](unsigned n, const H5E_error2_t* e, void* out) -> herr_t {
+        if (n == 0 && e->desc) *static_cast<std::string*>(out) = e->desc;
+        return 0;
+      },
+      &message);
+  return message;
+}
+
+[[noreturn]] void fail_reading(const std::string& where, const std::string& what,
+                               const std::string& remedy = {}) {
+  const std::string cause = library_message();
+  throw InputError({where, cause.empty() ? what : what + ": " + cause, "", remedy});
+}
+
+[[noreturn]] void fail_writing(const std::string& where, const std::string& what) {
+  const std::string cause = library_message();
+  throw NumericsError(
+      {where, cause.empty() ? what : what + ": " + cause, "",
+       "check the free space and the permissions of the folder, and that no other program has the "
+       "file open"});
+}
+
+std::string name_of(hid_t id, ssize_t (*get_name)(hid_t, char*, size_t)) {
+  const ssize_t length = get_name(id, nullptr, 0);
+  if (length <= 0) return {};
+  std::string name(static_cast<std::size_t>(length) + 1, '\0');
+  get_name(id, name.data(), name.size());
+  name.pop_back();
+  return name;
+}
+
+std::string where_is(const Object& object) {
+  return object.file_path() + ":" + object.path();
+}
+
+std::string join(const std::string& parent, const std::string& path) {
+  if (path.starts_with('/')) return path;
+  return parent == "/" ? "/" + path : parent + "/" + path;
+}
+
+/// A text type as h5py and MATLAB like it best: UTF-8 of variable length.
+Handle text_type() {
+  Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type.get(), H5T_VARIABLE);
+  H5Tset_cset(type.get(), H5T_CSET_UTF8);
+  return type;
+}
+
+Handle simple_space(const Shape& shape) {
+  const std::vector<hsize_t> lengths(shape.begin(), shape.end());
+  if (lengths.empty()) return Handle(H5Screate(H5S_SCALAR), H5Sclose);
+  return Handle(H5Screate_simple(static_cast<int>(lengths.size()), lengths.data(), nullptr), H5Sclose);
+}
+
+/// Links whose parent groups are made on the way.
+Handle link_properties() {
+  Handle properties(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+  H5Pset_create_intermediate_group(properties.get(), 1);
+  return properties;
+}
+
+/// Object headers without time stamps: equal input, equal bytes.
+Handle creation_properties(hid_t property_class) {
+  Handle properties(H5Pcreate(property_class), H5Pclose);
+  H5Pset_obj_track_times(properties.get(), false);
+  return properties;
+}
+
+std::size_t element_count(const Shape& shape) {
+  return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
+}
+
+Shape shape_of(hid_t space) {
+  std::vector<hsize_t> lengths(static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space))));
+  H5Sget_simple_extent_dims(space, lengths.data(), nullptr);
+  return Shape(lengths.begin(), lengths.end());
+}
+
+void write_texts(hid_t attribute, std::span<const std::string> texts, const std::string& where) {
+  std::vector<const char*> pointers;
+  for (const std::string& text : texts) pointers.push_back(text.c_str());
+  const Handle type = text_type();
+  if (H5Awrite(attribute, type.get(), pointers.data()) < 0) fail_writing(where, "cannot write the attribute");
+}
+
+/// Texts of fixed or variable length.
+std::vector<std::string> read_texts(hid_t attribute, hid_t stored_type, hid_t space,
+                                    const std::string& where) {
+  const auto count = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space));
+  std::vector<std::string> texts;
+  if (H5Tis_variable_str(stored_type) > 0) {
+    std::vector<char*> pointers(count, nullptr);
+    const Handle type = text_type();
+    H5Tset_cset(type.get(), H5Tget_cset(stored_type));
+    if (H5Aread(attribute, type.get(), pointers.data()) < 0) fail_reading(where, "cannot read the attribute");
+    for (const char* text : pointers) texts.emplace_back(text ? text : "");
+    H5Dvlen_reclaim(type.get(), space, H5P_DEFAULT, pointers.data());
+  } else {
+    const std::size_t size = H5Tget_size(stored_type);
+    std::string characters(count * size, '\0');
+    if (H5Aread(attribute, stored_type, characters.data()) < 0)
+      fail_reading(where, "cannot read the attribute");
+    for (std::size_t i = 0; i < count; ++i) texts.emplace_back(characters.substr(i * size, size).c_str());
+  }
+  return texts;
+}
+
+bool is_number(hid_t type) {
+  const H5T_class_t kind = H5Tget_class(type);
+  return kind == H5T_INTEGER || kind == H5T_FLOAT;
+}
+
+}  // namespace
+
+Handle::Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+
+Handle& Handle::operator=(Handle&& other) noexcept {
+  reset();
+  id_ = std::exchange(other.id_, -1);
+  close_ = other.close_;
+  return *this;
+}
+
+bool Handle::reset() noexcept {
+  if (id_ < 0) return true;
+  const Silence silence;
+  return close_(std::exchange(id_, -1)) >= 0;
+}
+
+std::string Object::path() const {
+  return name_of(id(), H5Iget_name);
+}
+
+std::string Object::file_path() const {
+  return name_of(id(), H5Fget_name);
+}
+
+void Object::set_attribute(const std::string& name, const Value& value) {
+  const Silence silence;
+  const std::string where = where_is(*this) + "@" + name;
+  if (H5Aexists(id(), name.c_str()) > 0) H5Adelete(id(), name.c_str());
+  const auto create = [&](hid_t type, const Shape& shape) {
+    const Handle space = simple_space(shape);
+    Handle attribute(H5Acreate2(id(), name.c_str(), type, space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    if (attribute.get() < 0) fail_writing(where, "cannot make the attribute");
+    return attribute;
+  };
+  if (const auto* number = std::get_if<double>(&value)) {
+    if (H5Awrite(create(H5T_IEEE_F64LE, {}).get(), H5T_NATIVE_DOUBLE, number) < 0)
+      fail_writing(where, "cannot write the attribute");
+  } else if (const auto* text = std::get_if<std::string>(&value)) {
+    write_texts(create(text_type().get(), {}).get(), {text, 1}, where);
+  } else {
+    const auto& texts = std::get<std::vector<std::string>>(value);
+    write_texts(create(text_type().get(), {texts.size()}).get(), texts, where);
+  }
+}
+
+bool Object::has_attribute(const std::string& name) const {
+  return H5Aexists(id(), name.c_str()) > 0;
+}
+
+Value Object::attribute(const std::string& name) const {
+  const Silence silence;
+  const std::string where = where_is(*this) + "@" + name;
+  const Handle attribute(H5Aopen(id(), name.c_str(), H5P_DEFAULT), H5Aclose);
+  if (attribute.get() < 0) fail_reading(where, "no such attribute");
+  const Handle type(H5Aget_type(attribute.get()), H5Tclose);
+  const Handle space(H5Aget_space(attribute.get()), H5Sclose);
+  const bool scalar =
+      H5Sget_simple_extent_npoints(space.get()) == 1 && H5Sget_simple_extent_ndims(space.get()) == 0;
+  if (is_number(type.get()) && H5Sget_simple_extent_npoints(space.get()) == 1) {
+    double number = 0;
+    if (H5Aread(attribute.get(), H5T_NATIVE_DOUBLE, &number) < 0)
+      fail_reading(where, "cannot read the attribute");
+    return number;
+  }
+  if (H5Tget_class(type.get()) != H5T_STRING)
+    throw InputError({where, "the attribute is neither a number nor text", "", ""});
+  std::vector<std::string> texts = read_texts(attribute.get(), type.get(), space.get(), where);
+  if (scalar) return texts.front();
+  return texts;
+}
+
+std::string Object::text_attribute(const std::string& name) const {
+  if (!has_attribute(name)) return {};
+  const Value value = attribute(name);
+  const auto* text = std::get_if<std::string>(&value);
+  return text ? *text : std::string();
+}
+
+std::map<std::string, Value> Object::attributes() const {
+  std::vector<std::string> names;
+  H5Aiterate2(
+      id(), H5_INDEX_NAME, H5_ITER_INC, nullptr,
+      [](hid_t, const char* name, const H5A_info_t*, void* out) -> herr_t {
+        static_cast<std::vector<std::string>*>(out)->emplace_back(name);
+        return 0;
+      },
+      &names);
+  std::map<std::string, Value> values;
+  for (const std::string& name : names) {
+    const Handle attribute(H5Aopen(id(), name.c_str(), H5P_DEFAULT), H5Aclose);
+    const Handle type(H5Aget_type(attribute.get()), H5Tclose);
+    const Handle space(H5Aget_space(attribute.get()), H5Sclose);
+    const bool number = is_number(type.get()) && H5Sget_simple_extent_npoints(space.get()) == 1;
+    if (number || H5Tget_class(type.get()) == H5T_STRING) values.emplace(name, this->attribute(name));
+  }
+  return values;
+}
+
+Shape Dataset::shape() const {
+  const Handle space(H5Dget_space(id()), H5Sclose);
+  return shape_of(space.get());
+}
+
+bool Dataset::is_numeric() const {
+  const Handle type(H5Dget_type(id()), H5Tclose);
+  return is_number(type.get());
+}
+
+std::vector<double> Dataset::read() const {
+  const Silence silence;
+  const std::string where = where_is(*this);
+  std::vector<double> values(element_count(shape()));
+  if (!values.empty() && H5Dread(id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+    fail_reading(where, "cannot read the dataset");
+  return values;
+}
+
+std::vector<double> Dataset::read_rows(std::size_t rows) const {
+  const Silence silence;
+  const std::string where = where_is(*this);
+  const Shape whole = shape();
+  std::vector<hsize_t> start(whole.size(), 0), count(whole.begin(), whole.end());
+  count.at(0) = rows;
+  std::vector<double> values(rows * element_count({whole.begin() + 1, whole.end()}));
+  if (values.empty()) return values;
+  const Handle file_space(H5Dget_space(id()), H5Sclose);
+  const Handle row_space(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose);
+  H5Sselect_hyperslab(file_space.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
+  if (H5Dread(id(), H5T_NATIVE_DOUBLE, row_space.get(), file_space.get(), H5P_DEFAULT, values.data()) < 0)
+    fail_reading(where, "cannot read the dataset");
+  return values;
+}
+
+void Dataset::assign(std::span<const double> values) {
+  const Silence silence;
+  const std::string where = where_is(*this);
+  if (values.size() != element_count(shape()))
+    throw InputError({where, "the number of values differs from the size of the dataset",
+                      fmt::format("{}", values.size()), ""});
+  if (H5Dwrite(id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+    fail_writing(where, "cannot write the dataset");
+}
+
+void Dataset::append(std::span<const double> rows) {
+  const Silence silence;
+  const std::string where = where_is(*this);
+  const Shape old_shape = shape();
+  std::vector<hsize_t> start(old_shape.size(), 0);
+  std::vector<hsize_t> count(old_shape.begin(), old_shape.end());
+  const std::size_t row_length = element_count(Shape(old_shape.begin() + 1, old_shape.end()));
+  start[0] = old_shape[0];
+  count[0] = rows.size() / row_length;
+  std::vector<hsize_t> extent = count;
+  extent[0] = start[0] + count[0];
+
+  if (H5Dset_extent(id(), extent.data()) < 0) fail_writing(where, "cannot extend the dataset");
+  const Handle file_space(H5Dget_space(id()), H5Sclose);
+  const Handle row_space(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose);
+  H5Sselect_hyperslab(file_space.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
+  if (H5Dwrite(id(), H5T_NATIVE_DOUBLE, row_space.get(), file_space.get(), H5P_DEFAULT, rows.data()) < 0)
+    fail_writing(where, "cannot write the dataset");
+}
+
+void Dataset::make_scale(const std::string& name) {
+  const Silence silence;
+  const std::string where = where_is(*this);
+  if (H5DSset_scale(id(), name.c_str()) < 0) fail_writing(where, "cannot make a dimension scale");
+}
+
+void Dataset::attach_scale(const Dataset& scale) {
+  const Silence silence;
+  const std::string where = where_is(*this);
+  if (H5DSattach_scale(id(), scale.id(), 0) < 0) fail_writing(where, "cannot attach the dimension scale");
+}
+
+bool Group::contains(const std::string& path) const {
+  const Silence silence;
+  // The library wants every parent checked before the child.
+  for (std::size_t end = path.find('/', 1); end != std::string::npos; end = path.find('/', end + 1))
+    if (H5Lexists(id(), path.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+  return path == "/" || H5Lexists(id(), path.c_str(), H5P_DEFAULT) > 0;
+}
+
+std::vector<std::string> Group::members() const {
+  std::vector<std::string> names;
+  H5Literate(
+      id(), H5_INDEX_NAME, H5_ITER_INC, nullptr,
+      [](hid_t, const char* name, const H5L_info_t*, void* out) -> herr_t {
+        static_cast<std::vector<std::string>*>(out)->emplace_back(name);
+        return 0;
+      },
+      &names);
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::vector<std::string> Group::dataset_paths() const {
+  const Silence silence;
+  const std::string where = where_is(*this);
+  std::vector<std::string> paths;
+  const auto note = [](hid_t, const char* name, const H5O_info_t* info, void* out) -> herr_t {
+    if (info->type == H5O_TYPE_DATASET) static_cast<std::vector<std::string>*>(out)->emplace_back(name);
+    return 0;
+  };
+  if (H5Ovisit2(id(), H5_INDEX_NAME, H5_ITER_INC, note, &paths, H5O_INFO_BASIC) < 0)
+    fail_reading(where, "cannot list the group");
+  for (std::string& p : paths) p = join(path(), p);
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+namespace {
+
+/// Tells what the deepest existing ancestor of a missing path has to offer.
+[[noreturn]] void fail_missing(const Group& group, const std::string& path, const std::string& kind) {
+  std::string parent = path;
+  do {
+    const std::size_t slash = parent.rfind('/');
+    parent = slash == std::string::npos ? "" : slash == 0 ? "/" : parent.substr(0, slash);
+  } while (!parent.empty() && parent != "/" && !group.contains(parent));
+  std::vector<std::string> names;
+  const Handle opened(H5Gopen2(group.id(), parent.empty() ? "." : parent.c_str(), H5P_DEFAULT), H5Gclose);
+  if (opened.get() >= 0) names = parent.empty() ? group.members() : group.open_group(parent).members();
+  constexpr std::size_t kShown = 20;
+  const bool more = names.size() > kShown;
+  if (more) names.resize(kShown);
+  const std::string inside = parent.empty() ? group.path() : join(group.path(), parent);
+  throw InputError({group.file_path() + ":" + join(group.path(), path), "no such " + kind, "",
+                    names.empty()
+                        ? inside + " is empty"
+                        : fmt::format("{} has: {}{}", inside, fmt::join(names, ", "), more ? ", ..." : "")});
+}
+
+}  // namespace
+
+Group Group::open_group(const std::string& path) const {
+  const Silence silence;
+  Handle handle(H5Gopen2(id(), path.c_str(), H5P_DEFAULT), H5Gclose);
+  if (handle.get() < 0) fail_missing(*this, path, "group");
+  return Group(std::move(handle));
+}
+
+Dataset Group::open_dataset(const std::string& path) const {
+  const Silence silence;
+  Handle handle(H5Dopen2(id(), path.c_str(), H5P_DEFAULT), H5Dclose);
+  if (handle.get() < 0) fail_missing(*this, path, "dataset");
+  return Dataset(std::move(handle));
+}
+
+Group Group::create_group(const std::string& path) {
+  if (contains(path)) return open_group(path);
+  const Silence silence;
+  const std::string where = file_path() + ":" + join(this->path(), path);
+  const Handle links = link_properties();
+  const Handle creation = creation_properties(H5P_GROUP_CREATE);
+  {
+    const Handle made(H5Gcreate2(id(), path.c_str(), links.get(), creation.get(), H5P_DEFAULT), H5Gclose);
+    if (made.get() < 0) fail_writing(where, "cannot make the group");
+  }
+  return open_group(path);
+}
+
+Dataset Group::write(const std::string& path, const Shape& shape, std::span<const double> values) {
+  const Silence silence;
+  const std::string where = file_path() + ":" + join(this->path(), path);
+  if (values.size() != element_count(shape))
+    throw InputError({where, "the number of values differs from what the shape says",
+                      fmt::format("{} values for a shape of {}", values.size(), element_count(shape)), ""});
+  const Handle links = link_properties();
+  const Handle creation = creation_properties(H5P_DATASET_CREATE);
+  const Handle space = simple_space(shape);
+  Dataset dataset(Handle(
+      H5Dcreate2(id(), path.c_str(), H5T_IEEE_F64LE, space.get(), links.get(), creation.get(), H5P_DEFAULT),
+      H5Dclose));
+  if (dataset.id() < 0) fail_writing(where, "cannot make the dataset");
+  if (!values.empty() &&
+      H5Dwrite(dataset.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+    fail_writing(where, "cannot write the dataset");
+  return dataset;
+}
+
+Dataset Group::write(const std::string& path, const Eigen::Ref<const MatrixX>& matrix) {
+  const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows = matrix;
+  return write(path, {static_cast<std::size_t>(rows.rows()), static_cast<std::size_t>(rows.cols())},
+               {rows.data(), static_cast<std::size_t>(rows.size())});
+}
+
+Dataset Group::create_series(const std::string& path, const Shape& row_shape, const SeriesStorage& storage) {
+  const Silence silence;
+  const std::string where = file_path() + ":" + join(this->path(), path);
+  std::vector<hsize_t> start{0}, most{H5S_UNLIMITED}, chunk{storage.chunk_rows};
+  for (std::vector<hsize_t>* lengths : {&start, &most, &chunk})
+    lengths->insert(lengths->end(), row_shape.begin(), row_shape.end());
+  const int rank = static_cast<int>(start.size());
+
+  const Handle links = link_properties();
+  const Handle creation = creation_properties(H5P_DATASET_CREATE);
+  const double unwritten = std::numeric_limits<double>::quiet_NaN();
+  H5Pset_fill_value(creation.get(), H5T_NATIVE_DOUBLE, &unwritten);
+  H5Pset_chunk(creation.get(), rank, chunk.data());
+  if (storage.deflate_level > 0) {
+    H5Pset_shuffle(creation.get());
+    H5Pset_deflate(creation.get(), storage.deflate_level);
+  }
+  const Handle space(H5Screate_simple(rank, start.data(), most.data()), H5Sclose);
+  Dataset dataset(Handle(
+      H5Dcreate2(id(), path.c_str(), H5T_IEEE_F64LE, space.get(), links.get(), creation.get(), H5P_DEFAULT),
+      H5Dclose));
+  if (dataset.id() < 0) fail_writing(where, "cannot make the dataset");
+  return dataset;
+}
+
+MatrixX Group::read_matrix(const std::string& path) const {
+  const Dataset dataset = open_dataset(path);
+  const Shape shape = dataset.shape();
+  if (shape.size() > 2)
+    throw InputError(
+        {where_is(dataset), "a matrix has at most two dimensions", fmt::format("{}", shape.size()), ""});
+  const auto rows = static_cast<Eigen::Index>(shape.empty() ? 1 : shape[0]);
+  const auto columns = static_cast<Eigen::Index>(shape.size() < 2 ? 1 : shape[1]);
+  const std::vector<double> values = dataset.read();
+  return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+      values.data(), rows, columns);
+}
+
+File File::open(const std::string& path) {
+  const Silence silence;
+  namespace fs = std::filesystem;
+  if (!fs::exists(path)) throw InputError({path, "no such file", "", "check the path"});
+  if (fs::is_directory(path)) throw InputError({path, "this is a folder, not an HDF5 file", "", ""});
+  if (H5Fis_hdf5(path.c_str()) == 0)
+    throw InputError({path, "this is not an HDF5 file", "", "give a result file written by wishbone (.h5)"});
+  Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  if (file.get() < 0)
+    fail_reading(path, "cannot open the file", "is a program still writing it, or was it cut short?");
+  Handle root(H5Gopen2(file.get(), "/", H5P_DEFAULT), H5Gclose);
+  if (root.get() < 0) fail_reading(path, "cannot open the root group");
+  return File(std::move(file), std::move(root));
+}
+
+File File::create(const std::string& path) {
+  const Silence silence;
+  const Handle creation = creation_properties(H5P_FILE_CREATE);
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG);
+  Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose);
+  if (file.get() < 0) fail_writing(path, "cannot make the file");
+
+  // Metadata leave the cache by flush() only.
+  H5AC_cache_config_t cache;
+  cache.version = H5AC__CURR_CACHE_CONFIG_VERSION;
+  H5Fget_mdc_config(file.get(), &cache);
+  cache.evictions_enabled = false;
+  cache.incr_mode = H5C_incr__off;
+  cache.flash_incr_mode = H5C_flash_incr__off;
+  cache.decr_mode = H5C_decr__off;
+  if (H5Fset_mdc_config(file.get(), &cache) < 0) fail_writing(path, "cannot configure the metadata cache");
+
+  Handle root(H5Gopen2(file.get(), "/", H5P_DEFAULT), H5Gclose);
+  if (root.get() < 0) fail_writing(path, "cannot open the root group");
+  return File(std::move(file), std::move(root));
+}
+
+void File::flush() {
+  const Silence silence;
+  const std::string where = file_path();
+  if (H5Fflush(file_.get(), H5F_SCOPE_GLOBAL) < 0) fail_writing(where, "cannot write");
+}
+
+void File::close() {
+  flush();
+  const std::string path = file_path();
+  {
+    const Silence silence;
+    void* descriptor = nullptr;
+    if (H5Fget_vfd_handle(file_.get(), H5P_DEFAULT, &descriptor) >= 0 &&
+        fsync(*static_cast<int*>(descriptor)) != 0)
+      fail_writing(path, "cannot put the file on the disk");
+  }
+  const bool closed_root = handle_.reset();
+  if (!file_.reset() || !closed_root) fail_writing(path, "cannot close the file");
+}
+
+}  // namespace wishbone::hdf5

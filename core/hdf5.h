@@ -1,0 +1,158 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/spatial.h"
+
+/// A small layer over the HDF5 C library: every identifier has one owner that closes it, every failure is an
+/// exception that names the file, the object and the library's own innermost message.
+///
+/// Reading throws InputError (file missing, not HDF5, object missing: with what exists instead); writing
+/// throws NumericsError (disk full, file already open elsewhere, ...). Nothing written carries a time stamp:
+/// equal input gives equal bytes. Numbers are double precision, texts UTF-8 of variable length, arrays
+/// row-major.
+namespace wishbone::hdf5 {
+
+/// Owner of one HDF5 identifier: closes it when it goes out of scope. Movable, not copyable.
+class Handle {
+ public:
+  using Id = std::int64_t;
+  using Close = int (*)(Id);
+
+  Handle() = default;
+  Handle(Id id, Close close) : id_(id), close_(close) {}
+  Handle(Handle&& other) noexcept;
+  Handle& operator=(Handle&& other) noexcept;
+  ~Handle() { reset(); }
+
+  Id get() const { return id_; }
+  /// Closes now; returns false when the library reports a failure.
+  bool reset() noexcept;
+
+ private:
+  Id id_ = -1;
+  Close close_ = nullptr;
+};
+
+/// What an attribute may hold: a number, a text, or a list of texts.
+using Value = std::variant<double, std::string, std::vector<std::string>>;
+
+/// Lengths of an array, slowest-varying dimension first; empty for a scalar.
+using Shape = std::vector<std::size_t>;
+
+/// A group or a dataset: something that has a path and attributes.
+class Object {
+ public:
+  /// Path inside the file, "/bodies/chassis/position".
+  std::string path() const;
+  /// Path of the file that this object lives in.
+  std::string file_path() const;
+
+  /// Writes an attribute, replacing one of that name.
+  void set_attribute(const std::string& name, const Value& value);
+  bool has_attribute(const std::string& name) const;
+  /// Throws InputError when there is no such attribute or when it holds something else than a Value can.
+  Value attribute(const std::string& name) const;
+  /// Text of an attribute; empty when there is none or when it is not a text.
+  std::string text_attribute(const std::string& name) const;
+  /// Every attribute that a Value can hold (references and other foreign types are left out), by name.
+  std::map<std::string, Value> attributes() const;
+
+  Handle::Id id() const { return handle_.get(); }
+
+ protected:
+  explicit Object(Handle handle) : handle_(std::move(handle)) {}
+
+  Handle handle_;
+};
+
+/// An array of doubles.
+class Dataset : public Object {
+ public:
+  explicit Dataset(Handle handle) : Object(std::move(handle)) {}
+
+  Shape shape() const;
+  /// False for texts and other data that do not convert to double.
+  bool is_numeric() const;
+  /// All elements in row-major order.
+  std::vector<double> read() const;
+  /// The first `rows` rows (along the first dimension) only; what lies beyond is not touched.
+  std::vector<double> read_rows(std::size_t rows) const;
+
+  /// Replaces all elements in place.
+  void assign(std::span<const double> values);
+
+  /// Appends whole rows (along the first dimension) to a series made by Group::create_series.
+  /// `rows` holds a multiple of the row length.
+  void append(std::span<const double> rows);
+
+  /// Makes this dataset a dimension scale (HDF5 dimension scales specification) of the given name.
+  void make_scale(const std::string& name);
+  /// Attaches `scale` to the first dimension.
+  void attach_scale(const Dataset& scale);
+};
+
+/// How a growing dataset is stored.
+struct SeriesStorage {
+  std::size_t chunk_rows = 256;  ///< rows of one chunk, the unit of compression and of growth
+  unsigned deflate_level = 4;    ///< 0 (none) to 9; the bytes are shuffled first
+};
+
+class Group : public Object {
+ public:
+  explicit Group(Handle handle) : Object(std::move(handle)) {}
+
+  /// True when the path (relative to this group, or absolute) names an object.
+  bool contains(const std::string& path) const;
+  /// Names of the members, sorted.
+  std::vector<std::string> members() const;
+  /// Absolute paths of all datasets in this group and below, sorted.
+  std::vector<std::string> dataset_paths() const;
+
+  /// Throws InputError with the nearest existing members when there is no such group.
+  Group open_group(const std::string& path) const;
+  Dataset open_dataset(const std::string& path) const;
+
+  /// Makes the group and those above it; opens it when it exists already.
+  Group create_group(const std::string& path);
+  /// Writes an array once. `values` are row-major and as many as `shape` says.
+  Dataset write(const std::string& path, const Shape& shape, std::span<const double> values);
+  /// Writes a matrix [rows, columns].
+  Dataset write(const std::string& path, const Eigen::Ref<const MatrixX>& matrix);
+  /// A chunked, compressed dataset [0..unlimited, row_shape...] that grows by Dataset::append. Elements that
+  /// were never written read as NaN.
+  Dataset create_series(const std::string& path, const Shape& row_shape, const SeriesStorage& storage = {});
+  /// Reads a dataset of at most two dimensions; a vector comes back as one column, a scalar as 1x1.
+  MatrixX read_matrix(const std::string& path) const;
+};
+
+/// An open file and its root group. Objects of a file opened for reading keep it open until they are closed
+/// too; closing a file under construction closes all its objects.
+class File : public Group {
+ public:
+  /// Opens for reading only.
+  static File open(const std::string& path);
+  /// Makes a new file, replacing one of that name.
+  static File create(const std::string& path);
+
+  /// Hands everything written so far to the operating system: from here on it survives the death of the
+  /// process. Between two flushes no metadata reaches the file (the metadata cache never evicts), so that a
+  /// file whose writer is killed shows the state of the last flush, provided chunks were written whole.
+  void flush();
+  /// Flushes, asks the operating system to put it on the disk, and closes. No object of the file may be in
+  /// use after.
+  void close();
+
+ private:
+  File(Handle file, Handle root) : Group(std::move(root)), file_(std::move(file)) {}
+
+  Handle file_;
+};
+
+}  // namespace wishbone::hdf5

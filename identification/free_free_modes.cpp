@@ -1,0 +1,91 @@
+#include "identification/free_free_modes.h"
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+namespace wishbone {
+namespace {
+
+[[noreturn]] void reject(std::string what, std::string value, std::string remedy) {
+  throw InputError({"free-free modes", std::move(what), std::move(value), std::move(remedy)});
+}
+
+void check_input(const std::vector<int>& node_ids, const VectorX& node_mass, const Matrix3X& node_position,
+                 const MatrixX& stiffness) {
+  const Eigen::Index n = static_cast<Eigen::Index>(node_ids.size());
+  if (node_mass.size() != n || node_position.cols() != n || stiffness.rows() != 3 * n ||
+      stiffness.cols() != 3 * n)
+    reject(fmt::format("{} nodes need as many masses and positions and a {} x {} stiffness matrix", n, 3 * n,
+                       3 * n),
+           fmt::format("{} masses, {} positions, {} x {} stiffness", node_mass.size(), node_position.cols(),
+                       stiffness.rows(), stiffness.cols()),
+           "give three displacements to every node");
+  if (n < 3) reject("a flexible body needs at least three nodes", fmt::format("{}", n), "give more nodes");
+  if (!(node_mass.minCoeff() > 0))
+    reject("every node must have a positive mass", fmt::format("{:g} kg", node_mass.minCoeff()),
+           "condense massless nodes out of the stiffness first");
+  const double asymmetry = (stiffness - stiffness.transpose()).norm();
+  if (!(asymmetry <= 1e-8 * stiffness.norm()))
+    reject("the stiffness matrix must be symmetric",
+           fmt::format("asymmetry {:.3g}", asymmetry / stiffness.norm()),
+           "take its symmetric part if the difference is noise");
+}
+
+/// Largest component positive; components that are equal but for rounding count as tied and the first
+/// decides.
+void fix_sign(Eigen::Ref<VectorX> shape) {
+  const double nearly_largest = (1 - 1e-6) * shape.cwiseAbs().maxCoeff();
+  for (double component : shape) {
+    if (std::abs(component) < nearly_largest) continue;
+    if (component < 0) shape = -shape;
+    return;
+  }
+}
+
+}  // namespace
+
+ModeSet free_free_modes(const std::vector<int>& node_ids, const VectorX& node_mass,
+                        const Matrix3X& node_position, const MatrixX& stiffness) {
+  check_input(node_ids, node_mass, node_position, stiffness);
+  const Vector3 centre = node_position * node_mass / node_mass.sum();
+  const Matrix3X s = node_position.colwise() - centre;
+  const VectorX root_mass = node_mass.transpose().replicate(3, 1).reshaped().cwiseSqrt();
+  const VectorX inverse_root_mass = root_mass.cwiseInverse();
+
+  // K_hat = M^-1/2 K M^-1/2 in mass-weighted coordinates, where rigid motion is Y = M^1/2 Psi_0, Y^T Y = 1
+  const MatrixX K_hat = inverse_root_mass.asDiagonal() * stiffness * inverse_root_mass.asDiagonal();
+  const MatrixX Y = root_mass.asDiagonal() * rigid_body_modes(node_mass, s);
+  const double resistance = (K_hat * Y).norm() / K_hat.norm();
+  if (!(resistance <= 1e-6))
+    reject("the stiffness must not resist rigid-body motion of a free body",
+           fmt::format("relative resistance {:.3g}", resistance),
+           "remove supports and springs to ground from it");
+
+  // Q: the last 3n - 6 columns of the orthogonal factor of Y
+  const Eigen::Index elastic_count = Y.rows() - 6;
+  MatrixX Q = MatrixX::Zero(Y.rows(), elastic_count);
+  Q.bottomRows(elastic_count).setIdentity();
+  const Eigen::HouseholderQR<MatrixX> qr(Y);
+  Q.applyOnTheLeft(qr.householderQ());
+
+  const Eigen::SelfAdjointEigenSolver<MatrixX> eigen(Q.transpose() * K_hat * Q);
+  const VectorX& lambda = eigen.eigenvalues();
+  if (!(lambda[0] > 1e-12 * lambda[elastic_count - 1]))
+    reject("the stiffness must resist every motion that is not rigid",
+           fmt::format("smallest eigenvalue {:.3g} of a largest {:.3g} rad2/s2", lambda[0],
+                       lambda[elastic_count - 1]),
+           "look for loose parts, hinges between elements or a stiffness identified from too few modes");
+
+  ModeSet set{node_ids, node_mass, s, lambda.cwiseSqrt(), MatrixX(), VectorX::Zero(elastic_count)};
+  set.shapes = inverse_root_mass.asDiagonal() * (Q * eigen.eigenvectors());
+  for (auto shape : set.shapes.colwise()) fix_sign(shape);
+  return set;
+}
+
+ModeSet free_free_modes(const HexahedralMesh& mesh, const IsotropicMaterial& material) {
+  return free_free_modes(mesh.node_ids, lumped_mass(mesh, material.density), mesh.nodes,
+                         MatrixX(stiffness_matrix(mesh, material)));
+}
+
+}  // namespace wishbone

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "joints/spherical_joint.h"
+
+namespace wishbone {
+
+/// Six freedoms. q = (quaternion w x y z of R_FM, p_FMo in F [m]); v = (w_FM in M [rad/s], v_FMo in F [m/s]).
+/// The translation speeds have F components, so that the flight of a spinning body does not look like a vibration
+/// to the integrator.
+struct FreeJoint {
+  static constexpr int kNq = 7;
+  static constexpr int kNv = 6;
+
+  void calc_across(double t, const double* q, AcrossJoint<kNv>& out) const {
+    AcrossJoint<3> rotation;
+    SphericalJoint{}.calc_across(t, q, rotation);
+    out.X_FM.R = rotation.X_FM.R;
+    out.X_FM.p = Eigen::Map<const Vector3>(q + 4);
+    out.H.topLeftCorner<3, 3>() = out.X_FM.R;
+    out.H.bottomRightCorner<3, 3>().setIdentity();
+  }
+  void calc_q_rate(const double* q, const double* v, double* q_rate) const {
+    SphericalJoint{}.calc_q_rate(q, v, q_rate);
+    Eigen::Map<Vector3>{q_rate + 4} = Eigen::Map<const Vector3>(v + 3);
+  }
+  void retract(const double* d, double* q) const {
+    SphericalJoint{}.retract(d, q);
+    Eigen::Map<Vector3>{q + 4} += Eigen::Map<const Vector3>(d + 3);
+  }
+  void set_neutral(double* q) const {
+    SphericalJoint{}.set_neutral(q);
+    Eigen::Map<Vector3>{q + 4}.setZero();
+  }
+};
+
+}  // namespace wishbone

@@ -1,0 +1,190 @@
+#include "solver/cvode_integrator.h"
+
+#include <cvode/cvode.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
+
+#include "solver/assembly.h"
+#include "solver/events.h"
+#include "solver/first_order.h"
+#include "solver/integrator_failure.h"
+#include "solver/sundials.h"
+
+namespace wishbone {
+namespace {
+
+class CvodeIntegrator final : public Integrator {
+ public:
+  CvodeIntegrator(const System& system, const IntegratorOptions& options, Workspace& ws);
+
+  void restart(const State& state, const Work& work) override;
+  Step step(double t_stop) override;
+  void interpolate(double t, State& state, Work& work) override;
+  Statistics statistics() const override;
+
+ private:
+  static int rate(realtype t, N_Vector y, N_Vector y_rate, void* self);
+  static int project(realtype t, N_Vector y, N_Vector correction, realtype eps, N_Vector err, void* self);
+  static int events(realtype t, N_Vector y, realtype* g, void* self);
+
+  void create(const State& state, const Work& work);
+  VectorX blame() const;
+
+  struct Counts {
+    long steps = 0, rates = 0, jacobians = 0, error_failures = 0, iteration_failures = 0;
+  };
+  Counts counts() const;
+
+  struct CvodeDeleter {
+    void operator()(void* p) const { CVodeFree(&p); }
+  };
+
+  IntegratorOptions options_;
+  FirstOrderSystem equations_;
+  int event_count_;
+  sundials::Context context_;
+  sundials::Vector y_, tolerances_, scratch_;
+  sundials::Matrix matrix_;
+  sundials::LinearSolver linear_;
+  sundials::NonlinearSolver nonlinear_;
+  std::unique_ptr<void, CvodeDeleter> cvode_;
+  double t_ = 0;
+  Counts before_;  // of the runs before the last restart
+};
+
+CvodeIntegrator::CvodeIntegrator(const System& system, const IntegratorOptions& options, Workspace& ws)
+    : options_(options),
+      equations_(system, ws),
+      event_count_(wishbone::event_count(system)),
+      y_(sundials::make_vector(equations_.size(), context_)),
+      tolerances_(sundials::make_vector(equations_.size(), context_)),
+      scratch_(sundials::make_vector(equations_.size(), context_)) {
+  equations_.set_tolerances(options.atol, sundials::map(tolerances_));
+}
+
+int CvodeIntegrator::rate(realtype t, N_Vector y, N_Vector y_rate, void* self) {
+  FirstOrderSystem& equations = static_cast<CvodeIntegrator*>(self)->equations_;
+  return equations.guard([&] { equations.calc_rate(t, sundials::map(y), sundials::map(y_rate)); });
+}
+
+int CvodeIntegrator::project(realtype t, N_Vector y, N_Vector correction, realtype /*eps*/, N_Vector /*err*/,
+                             void* self) {
+  auto* integrator = static_cast<CvodeIntegrator*>(self);
+  FirstOrderSystem& equations = integrator->equations_;
+  bool closed = true;
+  const int flag = equations.guard([&] {
+    auto c = sundials::map(correction);
+    c = sundials::map(y);
+    closed = equations.project(t, kProjectionTolerance, c);
+    c -= sundials::map(y);
+  });
+  return flag != 0 ? flag : (closed ? 0 : 1);
+}
+
+int CvodeIntegrator::events(realtype t, N_Vector y, realtype* g, void* self) {
+  FirstOrderSystem& equations = static_cast<CvodeIntegrator*>(self)->equations_;
+  return equations.guard([&] { equations.calc_events(t, sundials::map(y), g); });
+}
+
+void CvodeIntegrator::create(const State& state, const Work& work) {
+  const bool adams = options_.method == Method::adams;
+  cvode_.reset(CVodeCreate(adams ? CV_ADAMS : CV_BDF, context_));
+  void* cvode = cvode_.get();
+  equations_.pack(state, work, sundials::map(y_));
+  CVodeSetErrHandlerFn(cvode, [](int, const char*, const char*, char*, void*) {}, nullptr);  // flags tell the story
+  CVodeInit(cvode, rate, state.t, y_.get());
+  CVodeSVtolerances(cvode, equations_.tolerance_scale() * options_.rtol, tolerances_.get());
+  CVodeSetUserData(cvode, this);
+  CVodeSetMaxNumSteps(cvode, -1);  // counted by the caller
+  if (options_.max_step > 0) CVodeSetMaxStep(cvode, options_.max_step);
+  if (adams) {
+    nonlinear_.reset(SUNNonlinSol_FixedPoint(y_.get(), 0, context_));
+    CVodeSetNonlinearSolver(cvode, nonlinear_.get());
+  } else {
+    matrix_.reset(SUNDenseMatrix(equations_.size(), equations_.size(), context_));
+    linear_.reset(SUNLinSol_Dense(y_.get(), matrix_.get(), context_));
+    CVodeSetLinearSolver(cvode, linear_.get(), matrix_.get());
+    if (options_.form == Form::index1) {
+      CVodeSetProjFn(cvode, project);
+      CVodeSetProjErrEst(cvode, SUNFALSE);
+    }
+  }
+  if (event_count_ > 0) CVodeRootInit(cvode, event_count_, events);
+}
+
+void CvodeIntegrator::restart(const State& state, const Work& work) {
+  t_ = state.t;
+  if (!cvode_) return create(state, work);
+  before_ = counts();
+  equations_.pack(state, work, sundials::map(y_));
+  CVodeReInit(cvode_.get(), state.t, y_.get());
+}
+
+Integrator::Step CvodeIntegrator::step(double t_stop) {
+  void* cvode = cvode_.get();
+  CVodeSetStopTime(cvode, t_stop);
+  const int flag = CVode(cvode, t_stop, y_.get(), &t_, CV_ONE_STEP);
+  if (flag < 0) {
+    throw_integrator_failure(equations_, "CVODE", sundials::flag_name(CVodeGetReturnFlagName(flag)), t_, blame());
+  }
+  equations_.take_failure();  // a trial state that was retried with a smaller step
+  Step result{t_, {}};
+  if (flag == CV_ROOT_RETURN) {
+    std::vector<int> found(event_count_);
+    CVodeGetRootInfo(cvode, found.data());
+    for (int i = 0; i < event_count_; ++i)
+      if (found[i] != 0) result.events.push_back(i);
+  }
+  return result;
+}
+
+void CvodeIntegrator::interpolate(double t, State& state, Work& work) {
+  CVodeGetDky(cvode_.get(), t, 0, scratch_.get());
+  equations_.unpack(t, sundials::map(scratch_), state, work);
+}
+
+VectorX CvodeIntegrator::blame() const {
+  CVodeGetErrWeights(cvode_.get(), scratch_.get());
+  VectorX share = sundials::map(scratch_);
+  long steps = 0;
+  CVodeGetNumSteps(cvode_.get(), &steps);
+  if (steps == 0) return share.cwiseProduct(sundials::map(y_));
+  CVodeGetEstLocalErrors(cvode_.get(), scratch_.get());
+  return share.cwiseProduct(sundials::map(scratch_));
+}
+
+CvodeIntegrator::Counts CvodeIntegrator::counts() const {
+  Counts n = before_;
+  const auto add = [&](long& total, auto get) {
+    long count = 0;
+    if (get(cvode_.get(), &count) == 0) total += count;
+  };
+  add(n.steps, CVodeGetNumSteps);
+  add(n.rates, CVodeGetNumRhsEvals);
+  add(n.error_failures, CVodeGetNumErrTestFails);
+  add(n.iteration_failures, CVodeGetNumNonlinSolvConvFails);
+  if (linear_) {
+    add(n.rates, CVodeGetNumLinRhsEvals);
+    add(n.jacobians, CVodeGetNumJacEvals);
+  }
+  return n;
+}
+
+Statistics CvodeIntegrator::statistics() const {
+  const Counts n = counts();
+  return {{"steps", double(n.steps)},
+          {"rate_evaluations", double(n.rates)},
+          {"jacobian_evaluations", double(n.jacobians)},
+          {"error_test_failures", double(n.error_failures)},
+          {"iteration_failures", double(n.iteration_failures)}};
+}
+
+}  // namespace
+
+std::unique_ptr<Integrator> make_cvode_integrator(const System& system, const IntegratorOptions& options,
+                                                  Workspace& ws) {
+  return std::make_unique<CvodeIntegrator>(system, options, ws);
+}
+
+}  // namespace wishbone

@@ -1,0 +1,49 @@
+#include "solver/energy.h"
+
+#include <type_traits>
+
+#include "solver/forward_dynamics.h"
+#include "solver/loads.h"
+
+namespace wishbone {
+
+Energy calc_energy(const System& system, const State& state, const Workspace& ws) {
+  Energy energy;
+  for (std::size_t i = 0; i < system.bodies.size(); ++i) {
+    const TreeBody& body = system.bodies[i];
+    const BodyState& s = ws.bodies[i];
+    if (body.flexible >= 0) {
+      const ModalBody& modal = system.flexible[body.flexible].modal;
+      const ModalBodyState& m = ws.flexible[body.flexible].modal;
+      energy.kinetic += modal.kinetic_energy(linear(s.V), m);
+      energy.elastic += modal.elastic_energy(m);
+      energy.gravity -= modal.mass() * system.gravity.dot(s.X_WB.p);
+    } else {
+      const Vector3 w_B = s.X_WB.R.transpose() * angular(s.V);
+      energy.kinetic += 0.5 * (body.mass * linear(s.V).squaredNorm() + w_B.dot(body.J_B * w_B));
+      energy.gravity -= body.mass * system.gravity.dot(s.X_WB.p);
+    }
+  }
+  int x_start = 0;
+  for_each_force(system, [&](const auto& element, int index) {
+    energy.springs += element.energy(force_input(state.t, state.x, x_start, element.state_count(), index, ws));
+    x_start += element.state_count();
+  });
+  return energy;
+}
+
+Work calc_work_rate(const System& system, double t, const Workspace& ws) {
+  Work rate;
+  for_each_force(system, [&](const auto& element, int index) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(element)>, AppliedLoad>)
+      rate.input += ws.element_powers[index];
+    else
+      rate.loss -= ws.element_powers[index];
+  });
+  for (std::size_t k = 0; k < system.flexible.size(); ++k)
+    rate.loss += system.flexible[k].modal.damping_power(ws.flexible[k].modal);
+  rate.input += calc_motion_power(system, t, ws);
+  return rate;
+}
+
+}  // namespace wishbone

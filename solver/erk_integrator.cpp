@@ -1,0 +1,160 @@
+#include "solver/erk_integrator.h"
+
+#include <arkode/arkode_erkstep.h>
+
+#include "solver/assembly.h"
+#include "solver/events.h"
+#include "solver/first_order.h"
+#include "solver/integrator_failure.h"
+#include "solver/sundials.h"
+
+namespace wishbone {
+namespace {
+
+class ErkIntegrator final : public Integrator {
+ public:
+  ErkIntegrator(const System& system, const IntegratorOptions& options, Workspace& ws);
+
+  void restart(const State& state, const Work& work) override;
+  Step step(double t_stop) override;
+  void interpolate(double t, State& state, Work& work) override;
+  Statistics statistics() const override;
+
+ private:
+  static int rate(realtype t, N_Vector y, N_Vector y_rate, void* self);
+  static int project(realtype t, N_Vector y, void* self);
+  static int events(realtype t, N_Vector y, realtype* g, void* self);
+
+  void create(const State& state, const Work& work);
+  VectorX blame() const;
+
+  struct Counts {
+    long steps = 0, rates = 0, error_failures = 0;
+  };
+  Counts counts() const;
+
+  struct ArkodeDeleter {
+    void operator()(void* p) const { ERKStepFree(&p); }
+  };
+
+  IntegratorOptions options_;
+  FirstOrderSystem equations_;
+  int event_count_;
+  sundials::Context context_;
+  sundials::Vector y_, tolerances_, scratch_;
+  std::unique_ptr<void, ArkodeDeleter> arkode_;
+  double t_ = 0;
+  Counts before_;  // of the runs before the last restart
+};
+
+ErkIntegrator::ErkIntegrator(const System& system, const IntegratorOptions& options, Workspace& ws)
+    : options_(options),
+      equations_(system, ws),
+      event_count_(wishbone::event_count(system)),
+      y_(sundials::make_vector(equations_.size(), context_)),
+      tolerances_(sundials::make_vector(equations_.size(), context_)),
+      scratch_(sundials::make_vector(equations_.size(), context_)) {
+  equations_.set_tolerances(options.atol, sundials::map(tolerances_));
+}
+
+int ErkIntegrator::rate(realtype t, N_Vector y, N_Vector y_rate, void* self) {
+  FirstOrderSystem& equations = static_cast<ErkIntegrator*>(self)->equations_;
+  return equations.guard([&] { equations.calc_rate(t, sundials::map(y), sundials::map(y_rate)); });
+}
+
+int ErkIntegrator::project(realtype t, N_Vector y, void* self) {
+  FirstOrderSystem& equations = static_cast<ErkIntegrator*>(self)->equations_;
+  bool closed = true;
+  const int flag =
+      equations.guard([&] { closed = equations.project(t, kProjectionTolerance, sundials::map(y)); });
+  return flag != 0 ? flag : (closed ? 0 : 1);
+}
+
+int ErkIntegrator::events(realtype t, N_Vector y, realtype* g, void* self) {
+  FirstOrderSystem& equations = static_cast<ErkIntegrator*>(self)->equations_;
+  return equations.guard([&] { equations.calc_events(t, sundials::map(y), g); });
+}
+
+void ErkIntegrator::create(const State& state, const Work& work) {
+  equations_.pack(state, work, sundials::map(y_));
+  arkode_.reset(ERKStepCreate(rate, state.t, y_.get(), context_));
+  void* arkode = arkode_.get();
+  ERKStepSetErrHandlerFn(arkode, [](int, const char*, const char*, char*, void*) {}, nullptr);
+  ERKStepSVtolerances(arkode, equations_.tolerance_scale() * options_.rtol, tolerances_.get());
+  ERKStepSetUserData(arkode, this);
+  ERKStepSetMaxNumSteps(arkode, -1);  // counted by the caller
+  ERKStepSetTableNum(arkode, ARKODE_DORMAND_PRINCE_7_4_5);
+  if (options_.max_step > 0) ERKStepSetMaxStep(arkode, options_.max_step);
+  ERKStepSetPostprocessStepFn(arkode, project);
+  if (event_count_ > 0) ERKStepRootInit(arkode, event_count_, events);
+}
+
+void ErkIntegrator::restart(const State& state, const Work& work) {
+  t_ = state.t;
+  if (!arkode_) return create(state, work);
+  before_ = counts();
+  equations_.pack(state, work, sundials::map(y_));
+  ERKStepReInit(arkode_.get(), rate, state.t, y_.get());
+}
+
+Integrator::Step ErkIntegrator::step(double t_stop) {
+  void* arkode = arkode_.get();
+  ERKStepSetStopTime(arkode, t_stop);
+  const int flag = ERKStepEvolve(arkode, t_stop, y_.get(), &t_, ARK_ONE_STEP);
+  if (flag < 0)
+    throw_integrator_failure(equations_, "ARKODE", sundials::flag_name(ERKStepGetReturnFlagName(flag)), t_,
+                             blame());
+  equations_.take_failure();  // a trial state that was retried with a smaller step
+  Step result{t_, {}};
+  if (flag == ARK_ROOT_RETURN) {
+    std::vector<int> found(event_count_);
+    ERKStepGetRootInfo(arkode, found.data());
+    for (int i = 0; i < event_count_; ++i)
+      if (found[i] != 0) result.events.push_back(i);
+  }
+  return result;
+}
+
+void ErkIntegrator::interpolate(double t, State& state, Work& work) {
+  if (t == t_) return equations_.unpack(t, sundials::map(y_), state, work);
+  ERKStepGetDky(arkode_.get(), t, 0, scratch_.get());
+  equations_.unpack(t, sundials::map(scratch_), state, work);
+}
+
+VectorX ErkIntegrator::blame() const {
+  ERKStepGetErrWeights(arkode_.get(), scratch_.get());
+  VectorX share = sundials::map(scratch_);
+  long steps = 0;
+  ERKStepGetNumSteps(arkode_.get(), &steps);
+  if (steps == 0) return share.cwiseProduct(sundials::map(y_));
+  ERKStepGetEstLocalErrors(arkode_.get(), scratch_.get());
+  return share.cwiseProduct(sundials::map(scratch_));
+}
+
+ErkIntegrator::Counts ErkIntegrator::counts() const {
+  Counts n = before_;
+  const auto add = [&](long& total, auto get) {
+    long count = 0;
+    if (get(arkode_.get(), &count) == 0) total += count;
+  };
+  add(n.steps, ERKStepGetNumSteps);
+  add(n.rates, ERKStepGetNumRhsEvals);
+  add(n.error_failures, ERKStepGetNumErrTestFails);
+  return n;
+}
+
+Statistics ErkIntegrator::statistics() const {
+  const Counts n = counts();
+  return {{"steps", double(n.steps)},
+          {"rate_evaluations", double(n.rates)},
+          {"error_test_failures", double(n.error_failures)}};
+}
+
+}  // namespace
+
+std::unique_ptr<Integrator> make_erk_integrator(const System& system, const IntegratorOptions& options,
+                                                Workspace& ws) {
+  return std::make_unique<ErkIntegrator>(system, options, ws);
+}
+
+}  // namespace wishbone

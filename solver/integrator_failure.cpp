@@ -1,0 +1,25 @@
+#include "solver/integrator_failure.h"
+
+#include <fmt/format.h>
+
+namespace wishbone {
+
+void throw_integrator_failure(FirstOrderSystem& equations, const std::string& integrator, const std::string& flag,
+                              double t, const VectorX& blame) {
+  if (const std::exception_ptr failure = equations.take_failure()) {
+    try {
+      std::rethrow_exception(failure);
+    } catch (const NumericsError& error) {
+      Diagnostic d = error.diagnostic();
+      d.where = fmt::format("t = {:.9g} s: {}", t, d.where);
+      throw NumericsError(d);
+    }
+  }
+  Eigen::Index worst = 0;
+  blame.head(equations.size()).cwiseAbs().maxCoeff(&worst);
+  throw NumericsError({fmt::format("t = {:.9g} s: {}", t, equations.name(worst)),
+                       fmt::format("{} gave up ({}); this coordinate had the largest share in the error", integrator, flag),
+                       "", "loosen analysis.rtol and analysis.atol, or look for a discontinuity or an extreme stiffness there"});
+}
+
+}  // namespace wishbone

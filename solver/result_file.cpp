@@ -1,0 +1,102 @@
+#include "solver/result_file.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "core/error.h"
+
+namespace wishbone {
+
+namespace {
+
+Signal describe(const hdf5::Dataset& dataset, const hdf5::Shape& shape) {
+  Signal signal;
+  signal.path = dataset.path();
+  for (std::size_t i = 1; i < shape.size(); ++i) signal.shape.push_back(static_cast<int>(shape[i]));
+  signal.units = dataset.text_attribute("units");
+  signal.frame = dataset.text_attribute("frame");
+  signal.about = dataset.text_attribute("about");
+  for (auto& [name, value] : dataset.attributes())
+    if (const auto* texts = std::get_if<std::vector<std::string>>(&value)) signal.lists.emplace(name, *texts);
+  return signal;
+}
+
+std::vector<std::string> names_of_axis(int length, bool has_frame) {
+  if (has_frame && length == 3) return {"x", "y", "z"};
+  if (has_frame && length == 4) return {"w", "x", "y", "z"};
+  std::vector<std::string> names;
+  for (int i = 1; i <= length; ++i) names.push_back(std::to_string(i));
+  return names;
+}
+
+}  // namespace
+
+ResultFile::ResultFile(const std::string& path) : path_(path), file_(hdf5::File::open(path)) {
+  if (!file_.contains("/time"))
+    throw InputError({path, "this file has no /time: it is not the result of a run", "",
+                      "`wishbone info` shows what is in it"});
+  std::size_t rows = file_.open_dataset("/time").shape().at(0);
+  if (file_.contains("/meta/rows"))
+    rows = std::min(rows, static_cast<std::size_t>(file_.read_matrix("/meta/rows")(0, 0)));
+  for (const std::string& dataset_path : file_.dataset_paths()) {
+    const hdf5::Dataset dataset = file_.open_dataset(dataset_path);
+    const hdf5::Shape shape = dataset.shape();
+    // A signal over time has the dimension scale attached; matrices of other meaning have not.
+    if (dataset_path == "/time" || shape.empty() || !dataset.has_attribute("DIMENSION_LIST")) continue;
+    rows = std::min(rows, shape[0]);
+    signals_.push_back(describe(dataset, shape));
+  }
+  const std::vector<double> times = file_.open_dataset("/time").read_rows(rows);
+  time_ = Eigen::Map<const VectorX>(times.data(), static_cast<Eigen::Index>(rows));
+}
+
+const Signal* ResultFile::find(const std::string& path) const {
+  const auto found =
+      std::lower_bound(signals_.begin(), signals_.end(), path,
+                       [](const Signal& signal, const std::string& p) { return signal.path < p; });
+  return found != signals_.end() && found->path == path ? &*found : nullptr;
+}
+
+MatrixX ResultFile::read(const std::string& path) const {
+  const hdf5::Dataset dataset = file_.open_dataset(path);
+  const Signal* signal = find(path);
+  if (!signal) throw InputError({path_ + ":" + path, "this dataset is not a signal over time", "", ""});
+  const std::vector<double> values = dataset.read_rows(static_cast<std::size_t>(time_.size()));
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  return Eigen::Map<const RowMajor>(values.data(), time_.size(), signal->size());
+}
+
+std::map<std::string, hdf5::Value> ResultFile::meta() const {
+  if (!file_.contains("/meta")) return {};
+  return file_.open_group("/meta").attributes();
+}
+
+std::map<std::string, hdf5::Value> ResultFile::run_meta() const {
+  if (!file_.contains("/meta/run")) return {};
+  return file_.open_group("/meta/run").attributes();
+}
+
+std::string ResultFile::status() const {
+  if (!file_.contains("/meta")) return {};
+  return file_.open_group("/meta").text_attribute("status");
+}
+
+std::vector<std::string> component_names(const Signal& signal) {
+  if (signal.shape.empty()) return {""};
+  const std::vector<std::string> components = names_of_axis(signal.shape.back(), !signal.frame.empty());
+  const int vectors = signal.size() / signal.shape.back();
+  if (signal.shape.size() == 1) return components;
+
+  const auto nodes = signal.lists.find("nodes");
+  const bool named = nodes != signal.lists.end() && static_cast<int>(nodes->second.size()) == vectors;
+  std::vector<std::string> names;
+  for (int i = 0; i < vectors; ++i) {
+    const std::string vector =
+        named ? "node " + nodes->second[static_cast<std::size_t>(i)] : fmt::format("{}", i + 1);
+    for (const std::string& component : components) names.push_back(vector + " " + component);
+  }
+  return names;
+}
+
+}  // namespace wishbone

@@ -1,0 +1,44 @@
+#include "solver/system.h"
+
+#include <algorithm>
+
+namespace wishbone {
+namespace {
+
+const char* speed_component(const TreeBody& body, int i) {
+  static constexpr const char* kNames[] = {"wx", "wy", "wz", "vx", "vy", "vz"};
+  return body.nv == 1 ? "speed" : kNames[i];
+}
+
+}  // namespace
+
+std::string System::speed_name(int v_index) const {
+  for (const FlexibleBody& f : flexible)
+    if (v_index >= f.z_rate_start && v_index < f.z_rate_start + f.modal.mode_count())
+      return bodies[f.body].name + ": elastic mode " + std::to_string(v_index - f.z_rate_start + 1);
+  for (const TreeBody& body : bodies)
+    if (v_index >= body.v_start && v_index < body.v_start + body.nv)
+      return body.joint_name + ": " + speed_component(body, v_index - body.v_start);
+  return "state " + std::to_string(v_index);
+}
+
+std::string System::row_name(int row) const {
+  for (const Closure& closure : closures)
+    if (row >= closure.row_start && row < closure.row_start + closure.rows)
+      return closure.name + " (" + row_direction(closure.joint, row - closure.row_start) + ")";
+  return "row " + std::to_string(row);
+}
+
+std::vector<double> System::stop_times() const {
+  std::vector<double> times;
+  for (const TreeBody& body : bodies)
+    if (const auto* joint = std::get_if<PrescribedJoint>(&body.joint)) {
+      const std::vector<double> t = joint->motion.stop_times();
+      times.insert(times.end(), t.begin(), t.end());
+    }
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
+}  // namespace wishbone

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "bodies/marker.h"
+#include "bodies/modal_body.h"
+#include "core/spatial.h"
+#include "forces/applied_load.h"
+#include "forces/force_element.h"
+#include "forces/spring_damper.h"
+#include "forces/tire/tire.h"
+#include "joints/cut_joint.h"
+#include "joints/tree_joint.h"
+
+namespace wishbone {
+
+/// A body and the joint that carries it. The body frame B has its origin at the mass centre.
+struct TreeBody {
+  std::string name;
+  std::string joint_name;
+  int parent = -1;       ///< index of the inboard body, always smaller than the own index; -1: the inertial frame
+  int parent_node = -1;  ///< interface node of a flexible parent that carries the joint; -1: rigid parent
+  Pose X_PF;             ///< inboard joint frame on the parent (the node's undeformed position on a flexible one)
+  Pose X_MB;             ///< body frame in the outboard joint frame
+  TreeJoint joint;
+  int q_start = 0, v_start = 0;  ///< of the joint's coordinates and speeds
+  int nq = 0, nv = 0;            ///< of the joint
+  double mass = 0;               ///< [kg]
+  Matrix3 J_B = Matrix3::Zero();  ///< about the mass centre, body axes [kg m^2]; unused for a flexible body
+  int flexible = -1;              ///< index into System::flexible; -1: rigid
+};
+
+/// The elastic part of a tree body: its modal coordinates follow the joint's coordinates and speeds of that body.
+struct FlexibleBody {
+  ModalBody modal;
+  int body = 0;                      ///< the tree body it belongs to
+  int z_start = 0, z_rate_start = 0;  ///< where z and z' stand in q and v
+  bool carries_joints = false;       ///< tree joints hang on its nodes, so its modal mass matrix is not the identity
+};
+
+/// A marker of the compiled scene: fixed to a body, or to an interface node of a flexible one.
+struct Marker {
+  int body = -1;  ///< -1: the inertial frame
+  int node = -1;  ///< interface node of a flexible body
+  Pose X_BM;      ///< on the body (for a node only the rotation is used)
+};
+
+/// A cut joint between two markers, and the bodies that feel its multipliers.
+struct Closure {
+  std::string name;
+  CutJoint joint;
+  MarkerIndex A = 0, B = 0;
+  int row_start = 0, rows = 0;
+  std::vector<int> path;  ///< bodies between either marker and the root, outermost first
+};
+
+/// Force elements by concrete type, so that the evaluation calls them without dispatch. A new force is one entry.
+using ForceElements =
+    std::tuple<std::vector<SpringDamper>, std::vector<Tire>, std::vector<AppliedLoad>>;
+
+/// The compiled scene: what must be evaluated and nothing else. Immutable; every mutable number of an evaluation is in
+/// a Workspace. Made by SystemBuilder.
+struct System {
+  Vector3 gravity = Vector3::Zero();
+  std::vector<TreeBody> bodies;  ///< topological order
+  std::vector<FlexibleBody> flexible;
+  std::vector<Marker> markers;
+  std::vector<Closure> closures;
+  ForceElements forces;
+
+  int nq = 0;      ///< coordinates q, modal ones included
+  int nv = 0;      ///< speeds v
+  int nx = 0;      ///< states of the force elements
+  int n_rows = 0;  ///< closure rows, redundant ones included
+  int n_forces = 0;
+
+  /// Name of a speed for messages, such as "front_left_wheel: wx" or "chassis: mode 3".
+  std::string speed_name(int v_index) const;
+  /// Name of a closure row, such as "rear_left_hinge_2 (x)".
+  std::string row_name(int row) const;
+  /// Times at which a prescribed motion is only piecewise smooth [s], ascending.
+  std::vector<double> stop_times() const;
+};
+
+/// Positions, speeds and force-element states at one time.
+struct State {
+  double t = 0;
+  VectorX q, v, x;
+};
+
+}  // namespace wishbone

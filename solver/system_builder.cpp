@@ -1,0 +1,219 @@
+#include "solver/system_builder.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/error.h"
+
+namespace wishbone {
+
+int SystemBuilder::add_body(std::string name, double mass, const Matrix3& J_B, const Pose& X_WB) {
+  BodyEntry entry;
+  entry.name = std::move(name);
+  entry.mass = mass;
+  entry.J_B = J_B;
+  entry.X_WB = X_WB;
+  bodies_.push_back(std::move(entry));
+  return static_cast<int>(bodies_.size()) - 1;
+}
+
+int SystemBuilder::add_flexible_body(std::string name, ModeSet modes, const Pose& X_WB) {
+  const int body = add_body(std::move(name), modes.mass(), modes.inertia(), X_WB);
+  bodies_[body].modes = std::move(modes);
+  bodies_[body].flexible = true;
+  return body;
+}
+
+void SystemBuilder::set_velocity(int body, const Vector3& v_WB, const Vector3& w_WB_B) {
+  bodies_[body].v_WB = v_WB;
+  bodies_[body].w_WB_B = w_WB_B;
+}
+
+int SystemBuilder::interface_index(Attachment on) {
+  if (on.body == kGround || on.node_id == 0) return -1;
+  std::vector<int>& ids = bodies_[on.body].interface_ids;
+  const auto found = std::find(ids.begin(), ids.end(), on.node_id);
+  if (found != ids.end()) return static_cast<int>(found - ids.begin());
+  ids.push_back(on.node_id);
+  return static_cast<int>(ids.size()) - 1;
+}
+
+Pose SystemBuilder::attachment_pose(Attachment on) const {
+  if (on.body == kGround) return {};
+  const BodyEntry& body = bodies_[on.body];
+  if (on.node_id == 0) return body.X_WB;
+  const int column = body.modes.node_index(on.node_id);
+  return {body.X_WB.R, body.X_WB * Vector3(body.modes.node_position.col(column))};
+}
+
+void SystemBuilder::add_joint(std::string name, Attachment parent, int child, const Vector3& p_W, TreeJoint joint,
+                              double coordinate, double speed) {
+  BodyEntry& body = bodies_[child];
+  if (body.joint >= 0)
+    throw InputError({"joint '" + name + "'",
+                      "body '" + body.name + "' already hangs on tree joint '" + joints_[body.joint].name + "'", "",
+                      "cut one of the two joints"});
+  if (body.flexible && !std::holds_alternative<FreeJoint>(joint))
+    throw InputError({"joint '" + name + "'", "a flexible body can only be carried by a free joint",
+                      "body '" + body.name + "'",
+                      "name the flexible body first (as the parent) or cut the joint"});
+  body.joint = static_cast<int>(joints_.size());
+  joints_.push_back({std::move(name), parent, interface_index(parent), child, p_W, std::move(joint), coordinate, speed});
+}
+
+MarkerIndex SystemBuilder::add_marker(Attachment on, const Vector3& p_W, const Matrix3& R_WM) {
+  const Pose X_WB = on.body == kGround ? Pose{} : bodies_[on.body].X_WB;
+  markers_.push_back({on.body, interface_index(on), X_WB.inverse() * Pose{R_WM, p_W}});
+  return static_cast<MarkerIndex>(markers_.size()) - 1;
+}
+
+MarkerIndex SystemBuilder::add_marker(Attachment on) {
+  const Pose X_WM = attachment_pose(on);
+  return add_marker(on, X_WM.p, X_WM.R);
+}
+
+void SystemBuilder::add_closure(std::string name, MarkerIndex A, MarkerIndex B, CutJoint joint) {
+  Closure closure;
+  closure.name = std::move(name);
+  closure.joint = joint;
+  closure.A = A;
+  closure.B = B;
+  closure.rows = row_count(joint);
+  closures_.push_back(std::move(closure));
+}
+
+std::vector<int> SystemBuilder::topological_order() const {
+  // parents first; among bodies that could come next, the order in which they were added
+  std::vector<int> order;
+  std::vector<bool> placed(bodies_.size(), false);
+  while (order.size() < bodies_.size()) {
+    const std::size_t before = order.size();
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      if (placed[i]) continue;
+      const int parent = bodies_[i].joint < 0 ? kGround : joints_[bodies_[i].joint].parent.body;
+      if (parent != kGround && !placed[parent]) continue;
+      placed[i] = true;
+      order.push_back(static_cast<int>(i));
+    }
+    if (order.size() > before) continue;
+    const auto stuck = std::find(placed.begin(), placed.end(), false) - placed.begin();
+    throw InputError({"joint '" + joints_[bodies_[stuck].joint].name + "'",
+                      "the tree joints form a closed loop through body '" + bodies_[stuck].name + "'", "",
+                      "mark one joint of the loop as a cut joint"});
+  }
+  return order;
+}
+
+void SystemBuilder::add_tree_body(int entry, System& system, State& state) {
+  BodyEntry& source = bodies_[entry];
+  TreeBody body;
+  body.name = source.name;
+  body.mass = source.mass;
+  body.J_B = source.J_B;
+  VectorX q, v;
+  if (source.joint < 0) {
+    body.joint_name = source.name + " (floating)";
+    body.joint = FreeJoint{};
+  } else {
+    const JointEntry& joint = joints_[source.joint];
+    body.joint_name = joint.name;
+    body.joint = joint.joint;
+    body.parent = joint.parent.body == kGround ? -1 : order_of_[joint.parent.body];
+    body.parent_node = joint.node;
+  }
+  body.nq = coordinate_count(body.joint);
+  body.nv = speed_count(body.joint);
+  q = VectorX::Zero(body.nq);
+  v = VectorX::Zero(body.nv);
+  std::visit([&](const auto& joint) { joint.set_neutral(q.data()); }, body.joint);
+
+  if (std::holds_alternative<FreeJoint>(body.joint)) {
+    // F is the parent's frame, M the body frame: the coordinates are the pose itself
+    const Pose X_WP = body.parent < 0 ? Pose{} : bodies_[joints_[source.joint].parent.body].X_WB;
+    const Pose X_PB = X_WP.inverse() * source.X_WB;
+    const Quaternion Q_PB(X_PB.R);
+    q << Q_PB.w(), Q_PB.x(), Q_PB.y(), Q_PB.z(), X_PB.p;
+    v << source.w_WB_B, X_WP.R.transpose() * source.v_WB;
+  } else {
+    // F and M stand at the joint with the child's axes
+    const JointEntry& joint = joints_[source.joint];
+    const Pose X_WP = joint.parent.body == kGround ? Pose{} : bodies_[joint.parent.body].X_WB;
+    const Pose X_WF{source.X_WB.R, joint.p_W};
+    body.X_PF = X_WP.inverse() * X_WF;
+    body.X_MB = X_WF.inverse() * source.X_WB;
+    if (body.nv == 1) {
+      q[0] = joint.coordinate;
+      v[0] = joint.speed;
+    }
+  }
+
+  body.q_start = system.nq;
+  body.v_start = system.nv;
+  system.nq += body.nq;
+  system.nv += body.nv;
+  if (source.flexible) {
+    body.flexible = static_cast<int>(system.flexible.size());
+    FlexibleBody flexible{ModalBody(std::move(source.modes), source.interface_ids),
+                          static_cast<int>(system.bodies.size()), system.nq, system.nv, false};
+    const int m = flexible.modal.mode_count();
+    system.nq += m;
+    system.nv += m;
+    system.flexible.push_back(std::move(flexible));
+  }
+  if (body.parent_node >= 0) system.flexible[system.bodies[body.parent].flexible].carries_joints = true;
+
+  state.q.conservativeResizeLike(VectorX::Zero(system.nq));
+  state.v.conservativeResizeLike(VectorX::Zero(system.nv));
+  state.q.segment(body.q_start, body.nq) = q;
+  state.v.segment(body.v_start, body.nv) = v;
+  system.bodies.push_back(std::move(body));
+}
+
+void SystemBuilder::find_paths(System& system) const {
+  for (Closure& closure : system.closures) {
+    std::vector<bool> on_path(system.bodies.size(), false);
+    for (const MarkerIndex marker : {closure.A, closure.B})
+      for (int i = system.markers[marker].body; i >= 0; i = system.bodies[i].parent) on_path[i] = true;
+    for (int i = static_cast<int>(system.bodies.size()) - 1; i >= 0; --i)
+      if (on_path[i]) closure.path.push_back(i);
+  }
+}
+
+std::pair<System, State> SystemBuilder::build() && {
+  const std::vector<int> order = topological_order();
+  order_of_.assign(bodies_.size(), 0);
+  for (std::size_t i = 0; i < order.size(); ++i) order_of_[order[i]] = static_cast<int>(i);
+
+  System system;
+  State state;
+  system.gravity = gravity;
+  for (const int entry : order) add_tree_body(entry, system, state);
+
+  system.markers = std::move(markers_);
+  for (Marker& marker : system.markers)
+    if (marker.body != kGround) marker.body = order_of_[marker.body];
+
+  system.closures = std::move(closures_);
+  for (Closure& closure : system.closures) {
+    closure.row_start = system.n_rows;
+    system.n_rows += closure.rows;
+  }
+  find_paths(system);
+
+  system.forces = std::move(forces_);
+  std::apply([&](const auto&... lists) { ((system.n_forces += static_cast<int>(lists.size())), ...); },
+             system.forces);
+  std::apply(
+      [&](const auto&... lists) {
+        ((
+             [&](const auto& list) {
+               for (const auto& element : list) system.nx += element.state_count();
+             }(lists)),
+         ...);
+      },
+      system.forces);
+  state.x = VectorX::Zero(system.nx);
+  return {std::move(system), std::move(state)};
+}
+
+}  // namespace wishbone

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "bodies/mode_set.h"
+#include "solver/system.h"
+
+namespace wishbone {
+
+/// Where something is attached: a body, or one node of a flexible body. Body -1 is the inertial frame.
+struct Attachment {
+  int body = -1;
+  int node_id = 0;  ///< id in the body's ModeSet; 0: the body itself
+};
+
+/// Puts a System together from bodies in their design pose. Joints, markers and cut joints are given where they are in that
+/// pose, in inertial components; every joint coordinate is zero there. Bodies may be added in any order; a body that no
+/// tree joint carries floats on a free joint.
+class SystemBuilder {
+ public:
+  static constexpr int kGround = -1;
+
+  Vector3 gravity = Vector3::Zero();  ///< [m/s^2]
+
+  /// @param J_B inertia about the mass centre, body axes; X_WB design pose, origin at the mass centre
+  int add_body(std::string name, double mass, const Matrix3& J_B, const Pose& X_WB);
+  int add_flexible_body(std::string name, ModeSet modes, const Pose& X_WB);
+
+  /// Initial velocity of a floating body: v_WBo inertial components [m/s], w_WB body components [rad/s].
+  void set_velocity(int body, const Vector3& v_WB, const Vector3& w_WB_B);
+
+  /// Tree joint that carries `child` on `parent` at the point p_W. For revolute, prismatic and prescribed joints the axis
+  /// has the components of the child's body axes. `coordinate` and `speed` are the initial values of a joint with one freedom.
+  void add_joint(std::string name, Attachment parent, int child, const Vector3& p_W, TreeJoint joint,
+                 double coordinate = 0, double speed = 0);
+
+  /// Cut joint between markers.
+  void add_closure(std::string name, MarkerIndex A, MarkerIndex B, CutJoint joint);
+
+  /// Marker at p_W with axes R_WM in the design pose; on a node, at the node.
+  MarkerIndex add_marker(Attachment on, const Vector3& p_W, const Matrix3& R_WM = Matrix3::Identity());
+  /// Marker at an attachment's own origin (mass centre, or node) with the body's axes.
+  MarkerIndex add_marker(Attachment on);
+
+  template <class Force>
+  void add_force(Force force) {
+    std::get<std::vector<Force>>(forces_).push_back(std::move(force));
+  }
+
+  const Pose& design_pose(int body) const { return bodies_[body].X_WB; }
+
+  /// The compiled system and its initial state (not yet assembled onto the closures).
+  /// @throws InputError naming the body when a body has two tree joints, or the joints form a cycle
+  std::pair<System, State> build() &&;
+
+  /// Index in System::bodies of a body added here, after build().
+  int built_index(int body) const { return order_of_[body]; }
+
+ private:
+  struct BodyEntry {
+    std::string name;
+    double mass;
+    Matrix3 J_B;
+    Pose X_WB;
+    ModeSet modes;  // of a flexible body
+    bool flexible = false;
+    std::vector<int> interface_ids;
+    Vector3 v_WB = Vector3::Zero(), w_WB_B = Vector3::Zero();
+    int joint = -1;  // index in joints_
+  };
+  struct JointEntry {
+    std::string name;
+    Attachment parent;
+    int node = -1;  // interface index
+    int child;
+    Vector3 p_W;
+    TreeJoint joint;
+    double coordinate, speed;
+  };
+
+  int interface_index(Attachment on);
+  Pose attachment_pose(Attachment on) const;
+  std::vector<int> topological_order() const;
+  void add_tree_body(int entry, System& system, State& state);
+  void find_paths(System& system) const;
+
+  std::vector<BodyEntry> bodies_;
+  std::vector<JointEntry> joints_;
+  std::vector<Marker> markers_;
+  std::vector<Closure> closures_;
+  ForceElements forces_;
+  std::vector<int> order_of_;  // entry -> index in System::bodies
+};
+
+}  // namespace wishbone

@@ -1,0 +1,131 @@
+#include "solver/transient.h"
+
+#include <cmath>
+
+#include "core/error.h"
+#include "solver/events.h"
+#include "solver/forward_dynamics.h"
+#include "solver/kinematics.h"
+
+namespace wishbone {
+namespace {
+
+/// One run: the clock of outputs, the list of stops, and the integrator between them.
+class Run {
+ public:
+  Run(const System& system, State state, const TransientOptions& options, Workspace& ws, const Output& output)
+      : system_(system), options_(options), ws_(ws), output_(output), state_(std::move(state)) {
+    stops_ = system.stop_times();
+    std::erase_if(stops_, [&](double t) { return t <= state_.t || t >= options.duration; });
+    stops_.push_back(options.duration);
+  }
+
+  void start(TransientSummary& summary) {
+    summary.integrator = resolve(options_.integrator, system_);
+    summary.assembly = assemble(system_, state_, ws_);
+    update_positions(system_, state_.t, state_.q, ws_);
+    update_markers(system_, ws_);
+    initialize_segments(system_, ws_);
+    integrator_ = make_integrator(system_, summary.integrator, ws_);
+    integrator_->restart(state_, work_);
+    emit();
+  }
+
+  void advance(const std::function<bool(double)>& keep_going, TransientSummary& summary) {
+    for (const double stop : stops_) {
+      double t = state_.t;
+      while (t < stop) {
+        const Integrator::Step step = integrator_->step(stop);
+        t = step.t;
+        summary.t_end = t;
+        ++steps_;
+        emit_until(t);
+        check_limits(summary.integrator, t);
+        if (keep_going && !keep_going(t)) return interrupt(summary, t);
+        if (!step.events.empty()) {
+          for (const int event : step.events) handle_event(system_, event, ws_);
+          restart(t, summary);
+        }
+      }
+      if (stop < options_.duration) restart(stop, summary);
+      state_.t = stop;
+    }
+    summary.status = TransientSummary::Status::complete;
+    summary.message = "complete";
+  }
+
+  Statistics statistics() const { return integrator_ ? integrator_->statistics() : Statistics{}; }
+
+ private:
+  double output_time(long k) const { return static_cast<double>(k) * options_.interval; }
+
+  void emit() {
+    output_(state_, work_);
+    ++next_output_;
+  }
+
+  void emit_until(double t) {
+    // an output that falls on the end of the step up to rounding belongs to the step
+    const double slack = 1e-12 * std::max(1.0, std::abs(t));
+    while (output_time(next_output_) <= t + slack && output_time(next_output_) <= options_.duration + slack) {
+      const double t_out = output_time(next_output_);
+      integrator_->interpolate(std::min(t_out, t), state_, work_);
+      state_.t = t_out;
+      normalize_quaternions(system_, state_.q);
+      emit();
+    }
+  }
+
+  void restart(double t, TransientSummary& summary) {
+    integrator_->interpolate(t, state_, work_);
+    state_.t = t;
+    normalize_quaternions(system_, state_.q);
+    if (!ws_.kept.empty()) {
+      project_positions(system_, kProjectionTolerance, state_, ws_);
+      project_velocities(system_, state_, ws_);
+    }
+    integrator_->restart(state_, work_);
+    ++summary.restarts;
+  }
+
+  void check_limits(const IntegratorOptions& options, double t) const {
+    if (options.max_steps <= 0 || steps_ < options.max_steps) return;
+    throw NumericsError({"t = " + std::to_string(t) + " s", "the allowed number of steps is used up",
+                         std::to_string(steps_), "raise analysis.max_steps or loosen the tolerances"});
+  }
+
+  void interrupt(TransientSummary& summary, double t) {
+    summary.status = TransientSummary::Status::interrupted;
+    summary.message = "interrupted at t = " + std::to_string(t) + " s";
+  }
+
+  const System& system_;
+  const TransientOptions& options_;
+  Workspace& ws_;
+  const Output& output_;
+  State state_;
+  Work work_;
+  std::vector<double> stops_;
+  std::unique_ptr<Integrator> integrator_;
+  long next_output_ = 0;
+  long steps_ = 0;
+};
+
+}  // namespace
+
+TransientSummary run_transient(const System& system, State state, const TransientOptions& options, Workspace& ws,
+                               const Output& output, const std::function<bool(double)>& keep_going) {
+  TransientSummary summary;
+  Run run(system, std::move(state), options, ws, output);
+  try {
+    run.start(summary);
+    run.advance(keep_going, summary);
+  } catch (const NumericsError& error) {
+    summary.status = TransientSummary::Status::failed;
+    summary.message = error.what();
+  }
+  summary.statistics = run.statistics();
+  return summary;
+}
+
+}  // namespace wishbone

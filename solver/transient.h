@@ -1,0 +1,39 @@
+#pragma once
+
+#include <functional>
+
+#include "solver/assembly.h"
+#include "solver/integrator.h"
+
+namespace wishbone {
+
+struct TransientOptions {
+  IntegratorOptions integrator;
+  double duration = 1;    ///< [s]
+  double interval = 0.01;  ///< between outputs [s]
+};
+
+/// What a transient run came to. Starts pessimistic.
+struct TransientSummary {
+  enum class Status { failed, interrupted, complete };
+  Status status = Status::failed;
+  std::string message = "not started";
+  double t_end = 0;  ///< time reached [s]
+  IntegratorOptions integrator;  ///< as resolved
+  AssemblyReport assembly;
+  Statistics statistics;
+  long restarts = 0;  ///< of the integrator at events and kinks of prescribed motions
+};
+
+/// Called at every output time with a consistent state.
+using Output = std::function<void(const State&, const Work&)>;
+
+/// Assembles the initial state and integrates the equations of motion, calling `output` at every multiple of the interval.
+/// Stops and restarts the integrator at kinks of prescribed motions and at road edges. `keep_going` is asked after every
+/// step; false interrupts the run.
+/// @throws InputError when the state cannot be assembled; numerical failure comes back in the summary, after all output
+///   that was computed
+TransientSummary run_transient(const System& system, State state, const TransientOptions& options, Workspace& ws,
+                               const Output& output, const std::function<bool(double)>& keep_going = {});
+
+}  // namespace wishbone
