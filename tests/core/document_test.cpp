@@ -1,5 +1,6 @@
 #include "core/document.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -7,16 +8,16 @@
 
 #include "core/error.h"
 #include "core/yaml.h"
-#include "scratch_folder.h"
+#include "text_files.h"
 
 namespace wishbone {
 namespace {
 
 class Document : public testing::Test {
  protected:
-  void file(const std::string& name, std::string_view text) { folder_.write(name, text); }
+  void file(const std::string& name, std::string_view text) { files_.write(name, text); }
   YamlNodePtr load(const std::vector<std::string>& overrides = {}) {
-    return load_document(folder_.path() / "main.yaml", overrides);
+    return load_document(files_ / "main.yaml", overrides);
   }
   YamlNodePtr load(std::string_view text, const std::vector<std::string>& overrides = {}) {
     file("main.yaml", text);
@@ -28,9 +29,9 @@ class Document : public testing::Test {
     return load(text, overrides)->find(key)->value->text;
   }
   std::string refusal(std::string_view text, const std::vector<std::string>& overrides = {}) {
-    return folder_.relative(message_of<InputError>([&] { load(text, overrides); }));
+    return files_.relative(message_of<InputError>([&] { load(text, overrides); }));
   }
-  ScratchFolder folder_;
+  TextFiles files_;
 };
 
 TEST_F(Document, LoneParameterKeepsItsUnitAndType) {
@@ -179,6 +180,11 @@ TEST_F(Document, MissingIncludeIsToldWhereItIsAskedFor) {
   EXPECT_EQ(refusal("a: 1\ninclude:\n  - other.yaml\n"),
             "main.yaml:3:5: include[1]: error: there is no such file (got 'other.yaml')\n"
             "  check the name; an included file is looked for relative to the including one");
+}
+
+TEST_F(Document, IncludeWithAnImpossibleNameIsRefused) {
+  EXPECT_THAT(refusal("include: " + std::string(5000, 'x') + "\n"),
+              testing::StartsWith("main.yaml:1:10: include: error: there is no such file"));
 }
 
 TEST_F(Document, DumpReadsBackToItself) {

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "core/error.h"
-#include "scratch_folder.h"
+#include "text_files.h"
 
 namespace wishbone {
 namespace {

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "core/error.h"
-#include "scratch_folder.h"
+#include "text_files.h"
 
 namespace wishbone {
 namespace {

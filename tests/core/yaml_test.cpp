@@ -6,16 +6,16 @@
 #include <string>
 
 #include "core/yaml_parser.h"
-#include "scratch_folder.h"
+#include "text_files.h"
 
 namespace wishbone {
 namespace {
 
 class Yaml : public testing::Test {
  protected:
-  YamlNodePtr parse(std::string_view text) { return parse_yaml_file(folder_.write("a.yaml", text)); }
+  YamlNodePtr parse(std::string_view text) { return parse_yaml_file(files_.write("a.yaml", text)); }
   std::string refusal(std::string_view text) {
-    return folder_.relative(message_of<InputError>([&] { parse(text); }));
+    return files_.relative(message_of<InputError>([&] { parse(text); }));
   }
   Value root(std::string_view text) {
     const YamlNodePtr node = parse(text);
@@ -25,9 +25,9 @@ class Yaml : public testing::Test {
   Value x(std::string_view text) { return Mapping(root(text), {"x"}).required("x"); }
   template <class Step>
   std::string complaint(Step step) {
-    return folder_.relative(message_of<InputError>(step));
+    return files_.relative(message_of<InputError>(step));
   }
-  ScratchFolder folder_;
+  TextFiles files_;
 };
 
 TEST_F(Yaml, KnowsWhereEverythingStands) {
@@ -43,7 +43,7 @@ TEST_F(Yaml, PathLeadsToTheValue) {
   const Value bodies = Mapping(root("bodies:\n  arm: {steps: [{time: 1}]}\n"), {"bodies"}).required("bodies");
   const Value arm = bodies.named().front().second;
   const Value step = Mapping(arm, {"steps"}).required("steps").list().front();
-  EXPECT_EQ(folder_.relative(Mapping(step, {"time"}).required("time").where().text()),
+  EXPECT_EQ(files_.relative(Mapping(step, {"time"}).required("time").where().text()),
             "a.yaml:2:24: bodies.arm.steps[1].time");
 }
 
@@ -221,11 +221,11 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& param_info) { return param_info.param.name; });
 
 TEST_F(Yaml, FilesThatCannotBeReadAreToldApart) {
-  EXPECT_EQ(complaint([&] { parse_yaml_file(folder_.path() / "b.yaml"); }),
+  EXPECT_EQ(complaint([&] { parse_yaml_file(files_ / "b.yaml"); }),
             "error: there is no such file (got 'b.yaml')\n"
             "  check the name; an included file is looked for relative to the including one");
-  std::filesystem::create_directory(folder_.path() / "folder");
-  EXPECT_EQ(complaint([&] { parse_yaml_file(folder_.path() / "folder"); }),
+  std::filesystem::create_directory(files_ / "folder");
+  EXPECT_EQ(complaint([&] { parse_yaml_file(files_ / "folder"); }),
             "error: this is a directory, not a file (got 'folder')\n  name the file in it");
 }
 

@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 #include "models/scene_loader.h"
-#include "scratch_folder.h"
+#include "text_files.h"
 
 namespace wishbone {
 namespace {
@@ -79,9 +79,9 @@ TEST_P(BrokenScenes, AreRefusedWithPlaceValueAndRemedy) {
   ASSERT_EQ(scene.find(GetParam().text, at + 1), std::string::npos);
   scene.replace(at, GetParam().text.size(), GetParam().replacement);
 
-  const ScratchFolder folder;
-  const auto file = folder.write("scene.yaml", scene);
-  EXPECT_EQ(folder.relative(message_of<InputError>([&] { load_scene(file); })), GetParam().message);
+  const TextFiles files;
+  const auto file = files.write("scene.yaml", scene);
+  EXPECT_EQ(files.relative(message_of<InputError>([&] { load_scene(file); })), GetParam().message);
 }
 
 constexpr Broken kCatalogue[] = {
@@ -448,16 +448,16 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, BrokenScenes, testing::ValuesIn(kCatalogue),
                          [](const auto& param_info) { return std::string(param_info.param.name); });
 
 TEST(GoodScene, Loads) {
-  const ScratchFolder folder;
-  const auto file = folder.write("scene.yaml", kGoodScene);
+  const TextFiles files;
+  const auto file = files.write("scene.yaml", kGoodScene);
   EXPECT_EQ(load_scene(file).bodies.size(), 3u);
   EXPECT_EQ(load_scene(file, {"form=rigid"}).bodies[2].mass, 2);
 }
 
 TEST(SceneWithoutBodies, IsRefused) {
-  const ScratchFolder folder;
-  const auto file = folder.write("scene.yaml", "wishbone: 1\nbodies: {}\n");
-  EXPECT_EQ(folder.relative(message_of<InputError>([&] { load_scene(file); })),
+  const TextFiles files;
+  const auto file = files.write("scene.yaml", "wishbone: 1\nbodies: {}\n");
+  EXPECT_EQ(files.relative(message_of<InputError>([&] { load_scene(file); })),
             "scene.yaml:2:1: bodies: error: there are no bodies\n  describe at least one");
 }
 

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "models/scene_loader.h"
-#include "scratch_folder.h"
+#include "text_files.h"
 
 namespace wishbone {
 namespace {
@@ -48,14 +48,14 @@ std::string mutated(std::string text, std::mt19937& random) {
 }
 
 TEST(SceneLoader, EitherLoadsOrRefusesWhateverItIsGiven) {
-  const ScratchFolder folder;
-  folder.write("vehicle/car.yaml", text_of(WISHBONE_SCENES "/vehicle/car.yaml"));
+  const TextFiles files;
+  files.write("vehicle/car.yaml", text_of(WISHBONE_SCENES "/vehicle/car.yaml"));
   const std::string steer = text_of(WISHBONE_SCENES "/impulse_steer.yaml");
-  const std::string whole = load_scene(folder.write("scene.yaml", steer)).text;
+  const std::string whole = load_scene(files.write("scene.yaml", steer)).text;
   int loaded = 0, refused = 0;
   for (unsigned seed = 1; seed <= 3000; ++seed) {
     std::mt19937 random(seed);
-    const auto file = folder.write("scene.yaml", mutated(seed % 2 == 0 ? steer : whole, random));
+    const auto file = files.write("scene.yaml", mutated(seed % 2 == 0 ? steer : whole, random));
     try {
       load_scene(file);
       ++loaded;

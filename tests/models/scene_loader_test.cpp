@@ -9,8 +9,9 @@
 #include <set>
 #include <string>
 
+#include "identification/hexahedral_mesh.h"
 #include "models/scene_sections.h"
-#include "scratch_folder.h"
+#include "text_files.h"
 
 namespace wishbone {
 namespace {
@@ -42,9 +43,9 @@ Scene steer(const std::vector<std::string>& overrides = {}) {
 class SceneText : public testing::Test {
  protected:
   Scene load(const std::string& text) {
-    return load_scene(folder_.write("scene.yaml", "wishbone: 1\n" + text));
+    return load_scene(files_.write("scene.yaml", "wishbone: 1\n" + text));
   }
-  ScratchFolder folder_;
+  TextFiles files_;
 };
 
 constexpr const char* kBall = "bodies:\n  ball: {mass: 1, inertia: [1, 1, 1], position: [0, 0, 2]}\n";
@@ -140,6 +141,18 @@ TEST(BlockNodes, FollowTheVehiclesTable) {
       const Vector3 expected = section[static_cast<std::size_t>(i)] + Vector3(-1.2 + 0.6 * s, 0, 0);
       EXPECT_LT((scene_sections::block_node_position(block, 4 * s + i + 1) - expected).norm(), 1e-15);
     }
+  }
+}
+
+TEST(BlockNodes, AreThoseOfTheFiniteElementMesh) {
+  Scene::Flexible block;
+  block.size = {2.4, 0.5, 0.3};
+  block.elements = {3, 2, 4};
+  const HexahedralMesh mesh = make_block(block.size, block.elements);
+  ASSERT_EQ(mesh.nodes.cols(), scene_sections::block_node_count(block));
+  for (int node = 1; node <= mesh.nodes.cols(); ++node) {
+    ASSERT_EQ(mesh.node_ids[static_cast<std::size_t>(node - 1)], node);
+    EXPECT_LT((mesh.nodes.col(node - 1) - scene_sections::block_node_position(block, node)).norm(), 1e-15);
   }
 }
 
@@ -335,9 +348,9 @@ TEST(Car, TireHasTheTabulatedParameters) {
 }
 
 TEST(Car, ResolvedTextLoadsToTheSameScene) {
-  const ScratchFolder folder;
+  const TextFiles files;
   for (const Scene& scene : {depression(), steer({"suspension=hung", "chassis=rigid", "speed=80 km/h"})}) {
-    const Scene again = load_scene(folder.write("again.yaml", scene.text));
+    const Scene again = load_scene(files.write("again.yaml", scene.text));
     EXPECT_EQ(again.text, scene.text);
     EXPECT_EQ(again.X_WD.R, scene.X_WD.R);
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
@@ -351,7 +364,7 @@ TEST(Car, ResolvedTextLoadsToTheSameScene) {
 
 TEST(Car, EveryThingKnowsItsPlaceInTheFiles) {
   const Scene scene = depression();
-  EXPECT_THAT(body_named(scene, "chassis").where.text(), testing::EndsWith("car.yaml:23:3: bodies.chassis"));
+  EXPECT_THAT(body_named(scene, "chassis").where.text(), testing::EndsWith("car.yaml:24:3: bodies.chassis"));
   EXPECT_THAT(scene.motions[1].where.text(),
               testing::EndsWith("sine_depression.yaml:14:3: motions.front_right_steering"));
 }

@@ -1,42 +1,29 @@
 #pragma once
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <string_view>
 
+#include "temporary_folder.h"
+
 namespace wishbone {
 
-/// A folder of its own for one test, removed at the end.
-class ScratchFolder {
+/// Text files in a folder of their own, removed with it.
+class TextFiles {
  public:
-  ScratchFolder() {
-    static int count = 0;
-    path_ = std::filesystem::temp_directory_path() /
-            ("wishbone_test_" + std::to_string(::getpid()) + "_" + std::to_string(count++));
-    std::filesystem::create_directories(path_);
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path operator/(const std::string& name) const { return folder_ / name; }
 
   std::filesystem::path write(const std::string& name, std::string_view text) const {
-    const auto file = path_ / name;
+    const std::filesystem::path file = folder_ / name;
     std::filesystem::create_directories(file.parent_path());
     std::ofstream(file, std::ios::binary) << text;
     return file;
   }
 
-  /// `message` without the path of this folder, so that it can be compared.
+  /// `message` without the path of the folder, so that it can be compared.
   std::string relative(std::string message) const {
-    const std::string prefix = path_.string() + "/";
+    const std::string prefix = folder_ / "";
     for (auto at = message.find(prefix); at != std::string::npos; at = message.find(prefix)) {
       message.erase(at, prefix.size());
     }
@@ -44,7 +31,7 @@ class ScratchFolder {
   }
 
  private:
-  std::filesystem::path path_;
+  TemporaryFolder folder_;
 };
 
 /// The text of the error E that `step` throws; "nothing was thrown" otherwise.
