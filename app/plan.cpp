@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/analysis_options.h"
 #include "app/command.h"
 #include "models/scene_loader.h"
 
@@ -15,6 +16,7 @@ namespace {
 struct Options {
   std::string scene;
   std::vector<std::string> set;
+  AnalysisOptions analysis;
   bool json = false;
 };
 
@@ -63,7 +65,9 @@ void print_json(const Plan& plan) {
 
 ExitCode run(const Options& options) {
   const Scene scene = load_scene(options.scene, options.set);
-  const Plan plan = make_plan(compile(scene));
+  CompiledScene compiled = compile(scene);
+  apply(options.analysis, compiled.transient);
+  const Plan plan = make_plan(compiled);
   options.json ? print_json(plan) : print_lines(scene, plan);
   return kDone;
 }
@@ -77,6 +81,7 @@ void add_plan(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--set", options->set, "NAME=VALUE: another value for a parameter of the scene; may be repeated")
       ->type_name("NAME=VALUE")
       ->take_all();
+  add_analysis_options(*command, options->analysis);
   command->add_flag("--json", options->json, "print JSON");
   command->footer("Example:\n  wishbone plan models/scenes/impulse_steer.yaml --set chassis=rigid");
   command->callback([options, &exit_code] { exit_code = run(*options); });

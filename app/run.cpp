@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/analysis_options.h"
 #include "app/command.h"
 #include "models/run_scene.h"
 #include "models/scene_loader.h"
@@ -17,7 +18,7 @@ namespace {
 struct Options {
   std::string scene, output;
   std::vector<std::string> set;
-  double until = 0;
+  AnalysisOptions analysis;
   bool json = false;
 };
 
@@ -84,7 +85,7 @@ void print_json(const Options& options, const RunResult& result) {
 ExitCode run(const Options& options) {
   const Scene scene = load_scene(options.scene, options.set);
   CompiledScene compiled = compile(scene);
-  if (options.until > 0) compiled.transient.duration = options.until;
+  apply(options.analysis, compiled.transient);
 
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
@@ -112,8 +113,7 @@ void add_run(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--set", options->set, "NAME=VALUE: another value for a parameter of the scene; may be repeated")
       ->type_name("NAME=VALUE")
       ->take_all();
-  command->add_option("--until", options->until, "end of the run [s] instead of the scene's duration")
-      ->check(CLI::PositiveNumber);
+  add_analysis_options(*command, options->analysis);
   command->add_flag("--json", options->json, "print JSON");
   command->footer("Example:\n  wishbone run models/scenes/impulse_steer.yaml -o rigid.h5 --set chassis=rigid");
   command->callback([options, &exit_code] { exit_code = run(*options); });
