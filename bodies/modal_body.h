@@ -12,10 +12,10 @@ namespace wishbone {
 /// the body frame.
 struct ModalBodyState {
   // Position stage, written by set_position().
-  VectorX z;             ///< m, modal coordinates [m sqrt(kg)]
-  Matrix3X interface_b;  ///< 3 x k, p_BoP of each interface node [m]
-  Matrix3 J;             ///< inertia about Bo of the deformed body, -sum m_i b_i~ b_i~ [kg m2]
-  Matrix3X S;            ///< 3 x m, sum m_i delta_i~ Psi_i [m sqrt(kg)]
+  VectorX z;                    ///< m, modal coordinates [m sqrt(kg)]
+  Matrix3X interface_b;         ///< 3 x k, p_BoP of each interface node [m]
+  Matrix3 J = Matrix3::Zero();  ///< inertia about Bo of the deformed body, -sum m_i b_i~ b_i~ [kg m2]
+  Matrix3X S;                   ///< 3 x m, sum m_i delta_i~ Psi_i [m sqrt(kg)]
 
   // Velocity stage, written by set_velocity().
   VectorX zdot;                      ///< m [m sqrt(kg)/s]
@@ -42,9 +42,8 @@ struct ModalBodyState {
 /// Translation couples with nothing and the modal mass is the identity, for the modes of a ModeSet are
 /// mass-normalised and orthogonal to rigid motion. Nothing but modal truncation is left out, so a free
 /// undamped body conserves energy and both momenta. Damping acts on z alone: it leaves both momenta as they
-/// are. Source: structural identification for flexible multibody dynamics, chapter 5.2, eqs. 5.47-5.64, there
-/// with the leading terms only; the terms of second order in (z, z') added here make the equations follow
-/// from T.
+/// are. Source: docs/theory.md section 3, eqs. [5.47-5.64], where the source keeps the leading terms only;
+/// the terms of second order in (z, z') make the equations follow from T.
 ///
 /// The sums are taken over mass points in mass-weighted form, sqrt(m_i) b_i and sqrt(m_i) Psi_i, in which m_i
 /// does not appear. The interface nodes are points of their own. All other nodes enter only through second
