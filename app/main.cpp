@@ -15,6 +15,8 @@ wishbone::ExitCode run(int argc, char** argv) {
       "Exit codes: 0 done, 1 a comparison failed, 2 bad input, 3 the numerics failed.\n"
       "`wishbone COMMAND --help` shows options and an example.");
   ExitCode exit_code = kDone;
+  add_run(app, exit_code);
+  add_plan(app, exit_code);
   add_check(app, exit_code);
   add_compare(app, exit_code);
   add_extract(app, exit_code);

@@ -22,6 +22,7 @@ namespace wishbone {
 struct TreeBody {
   std::string name;
   std::string joint_name;
+  bool floating = false;  ///< on a free joint that the scene does not name
   int parent = -1;       ///< index of the inboard body, always smaller than the own index; -1: the inertial frame
   int parent_node = -1;  ///< interface node of a flexible parent that carries the joint; -1: rigid parent
   Pose X_PF;             ///< inboard joint frame on the parent (the node's undeformed position on a flexible one)

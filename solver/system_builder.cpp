@@ -113,6 +113,7 @@ void SystemBuilder::add_tree_body(int entry, System& system, State& state) {
   VectorX q, v;
   if (source.joint < 0) {
     body.joint_name = source.name + " (floating)";
+    body.floating = true;
     body.joint = FreeJoint{};
   } else {
     const JointEntry& joint = joints_[source.joint];

@@ -1,0 +1,122 @@
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/command.h"
+#include "models/run_scene.h"
+#include "models/scene_loader.h"
+
+namespace wishbone {
+
+namespace {
+
+struct Options {
+  std::string scene, output;
+  std::vector<std::string> set;
+  double until = 0;
+  bool json = false;
+};
+
+volatile std::sig_atomic_t interrupted = 0;
+extern "C" void on_interrupt(int) { interrupted = 1; }
+
+/// A line that overwrites itself on a terminal, a line a second of nothing elsewhere.
+class Progress {
+ public:
+  Progress(double duration, bool shown) : duration_(duration), shown_(shown && isatty(STDERR_FILENO)) {}
+  ~Progress() {
+    if (shown_) fmt::print(stderr, "\r\033[K");
+  }
+  void update(double t) {
+    const int percent = static_cast<int>(100 * t / duration_);
+    if (!shown_ || percent == percent_) return;
+    percent_ = percent;
+    fmt::print(stderr, "\r{:3d} %  t = {:.3f} s", percent, t);
+  }
+
+ private:
+  double duration_;
+  bool shown_;
+  int percent_ = -1;
+};
+
+const char* status_text(TransientSummary::Status status) {
+  switch (status) {
+    case TransientSummary::Status::complete: return "complete";
+    case TransientSummary::Status::interrupted: return "interrupted";
+    case TransientSummary::Status::failed: break;
+  }
+  return "failed";
+}
+
+void print_lines(const Options& options, const RunResult& result) {
+  const TransientSummary& s = result.summary;
+  fmt::print("{}: {} to t = {:.6g} s, form {}, integrator {}\n", options.scene, status_text(s.status), s.t_end,
+             to_string(s.integrator.form), to_string(s.integrator.method));
+  for (const auto& [name, value] : s.statistics) fmt::print("  {}: {}\n", name, value);
+  if (s.restarts > 0) fmt::print("  restarts at events: {}\n", s.restarts);
+  for (const std::string& row : result.redundant_rows) fmt::print("  redundant closure row left out: {}\n", row);
+  fmt::print("  CPU {:.3f} s ({:.4f} s per simulated second), results in {}\n", result.cpu_seconds,
+             result.cpu_seconds / std::max(s.t_end, 1e-300), options.output);
+}
+
+void print_json(const Options& options, const RunResult& result) {
+  const TransientSummary& s = result.summary;
+  nlohmann::ordered_json out{{"scene", options.scene},
+                             {"output", options.output},
+                             {"status", status_text(s.status)},
+                             {"message", s.message},
+                             {"t_end", s.t_end},
+                             {"form", to_string(s.integrator.form)},
+                             {"integrator", to_string(s.integrator.method)}};
+  for (const auto& [name, value] : s.statistics) out["statistics"][name] = value;
+  out["restarts"] = s.restarts;
+  out["redundant_rows"] = result.redundant_rows;
+  out["cpu_seconds"] = result.cpu_seconds;
+  out["wall_seconds"] = result.wall_seconds;
+  fmt::print("{}\n", out.dump(2));
+}
+
+ExitCode run(const Options& options) {
+  const Scene scene = load_scene(options.scene, options.set);
+  CompiledScene compiled = compile(scene);
+  if (options.until > 0) compiled.transient.duration = options.until;
+
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+  RunResult result;
+  {
+    Progress progress(compiled.transient.duration, !options.json);
+    result = run_scene(scene, compiled, {options.scene, options.output, options.set, [&](double t) {
+                                           progress.update(t);
+                                           return interrupted == 0;
+                                         }});
+  }
+  options.json ? print_json(options, result) : print_lines(options, result);
+  if (result.summary.status == TransientSummary::Status::complete) return kDone;
+  fmt::print(stderr, "{}\n  What was computed is kept in {}.\n", result.summary.message, options.output);
+  return kNumericsFailed;
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, ExitCode& exit_code) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("run", "Run a scene and write its results");
+  command->add_option("SCENE", options->scene, "scene file (YAML)")->required();
+  command->add_option("-o,--output", options->output, "results file (HDF5)")->required();
+  command->add_option("--set", options->set, "NAME=VALUE: another value for a parameter of the scene; may be repeated")
+      ->type_name("NAME=VALUE")
+      ->take_all();
+  command->add_option("--until", options->until, "end of the run [s] instead of the scene's duration")
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--json", options->json, "print JSON");
+  command->footer("Example:\n  wishbone run models/scenes/impulse_steer.yaml -o rigid.h5 --set chassis=rigid");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace wishbone

@@ -1,0 +1,186 @@
+#include "models/compile.h"
+
+#include <utility>
+
+#include "identification/free_free_modes.h"
+#include "identification/hexahedral_mesh.h"
+#include "solver/system_builder.h"
+
+namespace wishbone {
+namespace {
+
+/// The modes of a body that the scene describes as a block of hexahedra.
+ModeSet block_modes(const Scene::Flexible& flexible) {
+  const HexahedralMesh mesh = make_block(flexible.size, flexible.elements);
+  ModeSet modes = free_free_modes(mesh, {flexible.young, flexible.poisson, flexible.density}).lowest(flexible.modes);
+  modes.damping_ratio = Eigen::Map<const VectorX>(flexible.damping.data(), modes.mode_count());
+  return modes;
+}
+
+/// One scene on its way into a SystemBuilder.
+class Compiler {
+ public:
+  explicit Compiler(const Scene& scene) : scene_(scene) { builder_.gravity = scene.gravity; }
+
+  CompiledScene compile() && {
+    for (const Scene::Body& body : scene_.bodies) add_body(body);
+    for (const Scene::Joint& joint : scene_.joints) joint.cut ? add_closure(joint) : add_tree_joint(joint);
+    for (const Scene::Spring& spring : scene_.springs)
+      builder_.add_force(SpringDamper(spring.name, marker(spring.from), marker(spring.to), spring.stiffness,
+                                      spring.damping, spring.free_length));
+    for (const Scene::Tire& tire : scene_.tires) add_tire(tire);
+    for (const Scene::Load& load : scene_.loads)
+      builder_.add_force(AppliedLoad(load.name, marker(load.point), {load.moment, load.force},
+                                     load.in_body_axes ? LoadAxes::kMarker : LoadAxes::kWorld));
+    CompiledScene compiled;
+    std::tie(compiled.system, compiled.initial) = std::move(builder_).build();
+    compiled.observer = observer();
+    compiled.transient = transient();
+    return compiled;
+  }
+
+ private:
+  Vector3 world_point(const Vector3& p_DP) const { return scene_.X_WD * p_DP; }
+
+  void add_body(const Scene::Body& body) {
+    const Pose X_WB = scene_.X_WD * body.X_DB;
+    const int index = body.form == Scene::BodyForm::kModal
+                          ? builder_.add_flexible_body(body.name, block_modes(*body.flexible), X_WB)
+                          : builder_.add_body(body.name, body.mass, body.inertia, X_WB);
+    builder_.set_velocity(index, body.v_WBo, body.w_WB_B);
+  }
+
+  bool is_modal(int body) const {
+    return body != Scene::kGround && scene_.bodies[body].form == Scene::BodyForm::kModal;
+  }
+
+  /// A node of a rigid body is a point of it; a flexible body is taken hold of at its nodes.
+  Attachment attachment(const Scene::Point& point) const {
+    return {point.body, is_modal(point.body) ? point.node : 0};
+  }
+
+  MarkerIndex marker(const Scene::Point& point) {
+    return builder_.add_marker(attachment(point), world_point(point.p_DP));
+  }
+
+  Vector3 axis_in(int body, const Vector3& axis_D) const {
+    return scene_.bodies[body].X_DB.R.transpose() * axis_D;
+  }
+
+  TreeJoint tree_joint(const Scene::Joint& joint) const {
+    switch (joint.type) {
+      case Scene::JointType::kFixed: return FixedJoint{};
+      case Scene::JointType::kSpherical: return SphericalJoint{};
+      case Scene::JointType::kFree: return FreeJoint{};
+      case Scene::JointType::kRevolute:
+      case Scene::JointType::kPrismatic: break;
+    }
+    const Vector3 axis = axis_in(joint.child.body, joint.axis_D);
+    const bool turns = joint.type == Scene::JointType::kRevolute;
+    if (joint.motion >= 0)
+      return PrescribedJoint{turns ? PrescribedJoint::Kind::revolute : PrescribedJoint::Kind::prismatic, axis,
+                             motion(scene_.motions[joint.motion])};
+    if (turns) return RevoluteJoint{axis};
+    return PrismaticJoint{axis};
+  }
+
+  static Motion motion(const Scene::Motion& motion) {
+    std::vector<MotionStep> steps;
+    for (const Scene::MotionStep& s : motion.steps) steps.push_back({s.time, s.duration, s.change});
+    std::optional<Ackermann> ackermann;
+    if (motion.ackermann)
+      ackermann = Ackermann{motion.ackermann->wheelbase, motion.ackermann->track,
+                            motion.ackermann->side == Scene::Side::kLeft ? Ackermann::Side::kLeft
+                                                                         : Ackermann::Side::kRight};
+    return {"motion '" + motion.name + "'", motion.start, std::move(steps), ackermann};
+  }
+
+  void add_tree_joint(const Scene::Joint& joint) {
+    builder_.add_joint(joint.name, attachment(joint.parent), joint.child.body, world_point(joint.parent.p_DP),
+                       tree_joint(joint), joint.position, joint.speed);
+  }
+
+  void add_closure(const Scene::Joint& joint) {
+    Matrix3 R_DM = joint.parent.body == Scene::kGround ? Matrix3::Identity() : scene_.bodies[joint.parent.body].X_DB.R;
+    CutJoint cut = SphericalClosure{};
+    if (joint.type == Scene::JointType::kRevolute) {
+      const auto [x, y] = perpendiculars(joint.axis_D);
+      R_DM << x, y, joint.axis_D;
+      cut = RevoluteClosure{};
+    }
+    const Matrix3 R_WM = scene_.X_WD.R * R_DM;
+    const MarkerIndex A = builder_.add_marker(attachment(joint.parent), world_point(joint.parent.p_DP), R_WM);
+    const MarkerIndex B = builder_.add_marker(attachment(joint.child), world_point(joint.child.p_DP), R_WM);
+    builder_.add_closure(joint.name, A, B, cut);
+  }
+
+  void add_tire(const Scene::Tire& tire) {
+    const Scene::TireModel& model = scene_.tire_models[tire.model];
+    std::vector<RoadDepression> depressions;
+    if (scene_.road->depression) {
+      const Scene::Depression& d = *scene_.road->depression;
+      depressions.push_back({d.start, d.length, d.depth});
+    }
+    UaTireParameters parameters;
+    parameters.radius = model.radius;
+    parameters.radial_stiffness = model.vertical_stiffness;
+    parameters.radial_damping_ratio = model.damping_ratio;
+    parameters.mass = model.mass;
+    parameters.slip_stiffness = model.slip_stiffness;
+    parameters.cornering_stiffness = model.cornering_stiffness;
+    parameters.camber_stiffness = model.camber_stiffness;
+    parameters.rolling_resistance = model.rolling_resistance;
+    parameters.friction_max = model.friction_max;
+    parameters.friction_min = model.friction_min;
+    parameters.relaxation_x = model.relaxation_longitudinal;
+    parameters.relaxation_y = model.relaxation_lateral;
+    builder_.add_force(Tire(tire.name, builder_.add_marker({tire.wheel}), parameters,
+                            Road(scene_.road->bank, std::move(depressions)),
+                            model.form == Scene::TireForm::kSmooth ? UaForm::kSmooth : UaForm::kClassic, model.lag));
+  }
+
+  ObserverOptions observer() const {
+    ObserverOptions options;
+    for (const Scene::NodeOutput& output : scene_.output.nodes)
+      options.deflections.push_back({builder_.built_index(output.body), output.nodes});
+    if (!scene_.vehicle) return options;
+    options.chassis = builder_.built_index(scene_.vehicle->chassis);
+    for (const Scene::SteeringAngle& steering : scene_.vehicle->steering)
+      options.steering.push_back(
+          {steering.name, builder_.built_index(scene_.joints[steering.joint].child.body)});
+    return options;
+  }
+
+  TransientOptions transient() const {
+    const Scene::Analysis& analysis = scene_.analysis;
+    TransientOptions options;
+    options.duration = analysis.duration;
+    options.interval = scene_.output.interval;
+    switch (analysis.form) {
+      case Scene::Form::kAuto: options.integrator.form = Form::automatic; break;
+      case Scene::Form::kOde: options.integrator.form = Form::ode; break;
+      case Scene::Form::kIndex1: options.integrator.form = Form::index1; break;
+      case Scene::Form::kGgl: options.integrator.form = Form::ggl; break;
+    }
+    switch (analysis.integrator) {
+      case Scene::Integrator::kAuto: options.integrator.method = Method::automatic; break;
+      case Scene::Integrator::kAdams: options.integrator.method = Method::adams; break;
+      case Scene::Integrator::kBdf: options.integrator.method = Method::bdf; break;
+      case Scene::Integrator::kErk: options.integrator.method = Method::erk; break;
+    }
+    options.integrator.rtol = analysis.rtol;
+    options.integrator.atol = analysis.atol;
+    options.integrator.max_step = analysis.max_step.value_or(0);
+    options.integrator.max_steps = analysis.max_steps.value_or(0);
+    return options;
+  }
+
+  const Scene& scene_;
+  SystemBuilder builder_;
+};
+
+}  // namespace
+
+CompiledScene compile(const Scene& scene) { return Compiler(scene).compile(); }
+
+}  // namespace wishbone

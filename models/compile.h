@@ -1,0 +1,23 @@
+#pragma once
+
+#include "models/scene.h"
+#include "solver/observer.h"
+#include "solver/system.h"
+#include "solver/transient.h"
+
+namespace wishbone {
+
+/// A scene made ready to run.
+struct CompiledScene {
+  System system;
+  State initial;  ///< before assembly
+  ObserverOptions observer;
+  TransientOptions transient;
+};
+
+/// Builds the System of a scene: places the design pose, prepares the modes of flexible bodies, keeps what this scene needs and
+/// nothing else.
+/// @throws InputError naming the place in the scene file
+CompiledScene compile(const Scene& scene);
+
+}  // namespace wishbone

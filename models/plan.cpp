@@ -1,0 +1,86 @@
+#include "models/plan.h"
+
+#include <fmt/format.h>
+
+#include "solver/assembly.h"
+#include "solver/events.h"
+
+namespace wishbone {
+namespace {
+
+struct JointName {
+  const char* operator()(const FixedJoint&) const { return "fixed"; }
+  const char* operator()(const RevoluteJoint&) const { return "revolute"; }
+  const char* operator()(const PrismaticJoint&) const { return "prismatic"; }
+  const char* operator()(const SphericalJoint&) const { return "spherical"; }
+  const char* operator()(const FreeJoint&) const { return "free"; }
+  const char* operator()(const PrescribedJoint&) const { return "prescribed"; }
+};
+
+std::string tree_line(const System& system, const TreeBody& body) {
+  const std::string parent = body.parent < 0 ? "ground" : system.bodies[body.parent].name;
+  std::string line = fmt::format("{}: {} on {}{}, {} freedom{}", body.name, std::visit(JointName{}, body.joint), parent,
+                                 body.parent_node >= 0 ? " (a node)" : "", body.nv, body.nv == 1 ? "" : "s");
+  if (body.flexible >= 0)
+    line += fmt::format(", {} elastic modes", system.flexible[body.flexible].modal.mode_count());
+  return line;
+}
+
+void sort_into(bool needed, std::string kept, std::string left_out, Plan& plan) {
+  needed ? plan.kept.push_back(std::move(kept)) : plan.left_out.push_back(std::move(left_out));
+}
+
+void list_parts(const System& system, Plan& plan) {
+  const auto& [springs, tires, loads] = system.forces;
+  sort_into(plan.elastic_coordinates > 0, fmt::format("elastic terms of {} modes", plan.elastic_coordinates),
+            "elastic terms: no flexible body", plan);
+  bool damped = false;
+  for (const FlexibleBody& body : system.flexible) damped = damped || body.modal.modes().damping_ratio.maxCoeff() > 0;
+  if (plan.elastic_coordinates > 0)
+    sort_into(damped, "structural damping", "structural damping: every damping ratio is zero", plan);
+  sort_into(plan.closures > 0, fmt::format("closure solver for {} rows", plan.closure_rows),
+            "closure solver and projection: no cut joint", plan);
+  sort_into(plan.prescribed > 0, fmt::format("{} prescribed motions", plan.prescribed),
+            "prescribed motions: none", plan);
+  sort_into(!springs.empty(), fmt::format("{} spring-dampers", springs.size()), "springs: none", plan);
+  sort_into(!tires.empty(), fmt::format("{} tires", tires.size()), "tires and road: no tire", plan);
+  if (!tires.empty()) {
+    sort_into(system.nx > 0, fmt::format("{} states of tire lag", system.nx), "tire lag: not asked for", plan);
+    sort_into(event_count(system) > 0, "events at road edges", "events: the road has no edge", plan);
+  }
+  sort_into(!loads.empty(), fmt::format("{} loads", loads.size()), "loads: none", plan);
+  sort_into(system.gravity.norm() > 0, "gravity", "gravity: zero", plan);
+}
+
+}  // namespace
+
+Plan make_plan(const CompiledScene& compiled) {
+  const System& system = compiled.system;
+  Plan plan;
+  plan.bodies = static_cast<int>(system.bodies.size());
+  plan.flexible_bodies = static_cast<int>(system.flexible.size());
+  for (const FlexibleBody& body : system.flexible) plan.elastic_coordinates += body.modal.mode_count();
+  plan.coordinates = system.nq - plan.elastic_coordinates;
+  plan.speeds = system.nv - plan.elastic_coordinates;
+  for (const TreeBody& body : system.bodies) {
+    plan.prescribed += std::holds_alternative<PrescribedJoint>(body.joint) ? 1 : 0;
+    plan.tree.push_back(tree_line(system, body));
+  }
+  plan.closures = static_cast<int>(system.closures.size());
+  plan.closure_rows = system.n_rows;
+  plan.force_elements = system.n_forces;
+
+  Workspace ws(system);
+  State state = compiled.initial;
+  const AssemblyReport assembly = assemble(system, state, ws);
+  for (const int row : assembly.redundant_rows) plan.redundant_rows.push_back(system.row_name(row));
+  plan.mobility = system.nv - (system.n_rows - static_cast<int>(assembly.redundant_rows.size()));
+
+  const IntegratorOptions integrator = resolve(compiled.transient.integrator, system);
+  plan.form = to_string(integrator.form);
+  plan.integrator = to_string(integrator.method);
+  list_parts(system, plan);
+  return plan;
+}
+
+}  // namespace wishbone

@@ -1,0 +1,83 @@
+#include "models/run_scene.h"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <ctime>
+
+#include "core/version.h"
+
+namespace wishbone {
+namespace {
+
+std::string host_name() {
+  char name[256] = {};
+  gethostname(name, sizeof name - 1);
+  return name;
+}
+
+void record_facts(const Scene& scene, const RunRequest& request, const RunResult& result, Recorder& recorder) {
+  recorder.set_meta("title", scene.title);
+  recorder.set_meta("scene", scene.text);
+  recorder.set_meta("overrides", request.overrides);
+  recorder.set_meta("version", std::string(kVersion));
+  recorder.set_meta("git_revision", std::string(kGitRevision));
+  recorder.set_meta("compiler", std::string(kCompiler));
+  const TransientSummary& s = result.summary;
+  recorder.set_meta("form", std::string(to_string(s.integrator.form)));
+  recorder.set_meta("integrator", std::string(to_string(s.integrator.method)));
+  recorder.set_meta("rtol", s.integrator.rtol);
+  recorder.set_meta("atol", s.integrator.atol);
+  recorder.set_meta("redundant_rows", result.redundant_rows);
+  recorder.set_meta("restarts", static_cast<double>(s.restarts));
+  recorder.set_meta("t_end", s.t_end);
+  for (const auto& [name, value] : s.statistics) recorder.set_meta("solver_" + name, value);
+  const WorkCounters& w = result.work;
+  recorder.set_meta("work_position_sweeps", static_cast<double>(w.position));
+  recorder.set_meta("work_velocity_sweeps", static_cast<double>(w.velocity));
+  recorder.set_meta("work_force_evaluations", static_cast<double>(w.forces));
+  recorder.set_meta("work_inertia_factorizations", static_cast<double>(w.inertia));
+  recorder.set_meta("work_acceleration_solves", static_cast<double>(w.solves));
+  recorder.set_meta("work_closure_factorizations", static_cast<double>(w.closure_factorizations));
+  recorder.set_meta("work_projections", static_cast<double>(w.projections));
+  recorder.set_meta("work_inverse_dynamics", static_cast<double>(w.inverse_dynamics));
+  recorder.set_run_meta("host", host_name());
+  recorder.set_run_meta("wall_seconds", result.wall_seconds);
+  recorder.set_run_meta("cpu_seconds", result.cpu_seconds);
+}
+
+Outcome outcome(TransientSummary::Status status) {
+  switch (status) {
+    case TransientSummary::Status::complete: return Outcome::kComplete;
+    case TransientSummary::Status::interrupted: return Outcome::kInterrupted;
+    case TransientSummary::Status::failed: break;
+  }
+  return Outcome::kFailed;
+}
+
+}  // namespace
+
+RunResult run_scene(const Scene& scene, const CompiledScene& compiled, const RunRequest& request) {
+  const auto wall_start = std::chrono::steady_clock::now();
+  const std::clock_t cpu_start = std::clock();
+  RunResult result;
+  Workspace ws(compiled.system);
+  Observer observer(compiled.system, compiled.observer);
+  Recorder recorder(request.output_path, observer.signals());
+
+  result.summary = run_transient(
+      compiled.system, compiled.initial, compiled.transient, ws,
+      [&](const State& state, const Work& work) { recorder.append(state.t, observer.sample(state, work, ws)); },
+      request.keep_going);
+
+  result.work = ws.work;
+  for (const int row : result.summary.assembly.redundant_rows)
+    result.redundant_rows.push_back(compiled.system.row_name(row));
+  result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start).count();
+  result.cpu_seconds = static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
+  record_facts(scene, request, result, recorder);
+  recorder.close(outcome(result.summary.status), result.summary.message);
+  return result;
+}
+
+}  // namespace wishbone

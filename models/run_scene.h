@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "models/compile.h"
+
+namespace wishbone {
+
+/// How the results of a run are made and where they go.
+struct RunRequest {
+  std::string scene_path;
+  std::string output_path;
+  std::vector<std::string> overrides;        ///< "name=value" for the scene's parameters, kept with the results
+  std::function<bool(double)> keep_going;    ///< asked with the time after every step; false interrupts the run
+};
+
+/// What the run came to, for the terminal and for machines.
+struct RunResult {
+  TransientSummary summary;
+  WorkCounters work;
+  std::vector<std::string> redundant_rows;
+  double wall_seconds = 0, cpu_seconds = 0;
+};
+
+/// Runs the compiled scene and streams every signal to the results file. A run that fails keeps what it computed; the file
+/// says so in its status.
+/// @throws InputError when the scene cannot be assembled, NumericsError when the file cannot be written
+RunResult run_scene(const Scene& scene, const CompiledScene& compiled, const RunRequest& request);
+
+}  // namespace wishbone

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "solver/energy.h"
+#include "solver/recorder.h"
+#include "solver/workspace.h"
+
+namespace wishbone {
+
+/// What is observed beyond the plain motion of bodies, joints and forces.
+struct ObserverOptions {
+  struct Deflection {
+    int body = -1;  ///< flexible body, index into System::bodies
+    std::vector<int> node_ids;
+  };
+  struct Steering {
+    std::string name;
+    int body = -1;  ///< body whose inboard joint steers
+  };
+  std::vector<Deflection> deflections;
+  int chassis = -1;  ///< body of the derived vehicle signals; -1: none
+  std::vector<Steering> steering;
+};
+
+/// Turns states into rows of signals for the Recorder. Each signal is defined in one place, together with its path, unit and
+/// frame; its evaluation runs at output times only.
+class Observer {
+ public:
+  Observer(const System& system, const ObserverOptions& options);
+
+  const std::vector<Signal>& signals() const { return signals_; }
+
+  /// The row of one state, valid until the next call. Solves the equations of motion at the state for the reactions.
+  std::span<const double> sample(const State& state, const Work& work, Workspace& ws);
+
+  /// What the signals are computed from.
+  struct Sample {
+    const System& system;
+    const State& state;
+    const Workspace& ws;
+    Energy energy;
+    double dissipated = 0, input = 0;  // [J]
+  };
+  using Evaluate = std::function<void(const Sample&, double* out)>;
+
+ private:
+  void add(std::string path, std::vector<int> shape, std::string units, std::string frame, std::string about,
+           Evaluate evaluate);
+  void add_bodies(const System& system);
+  void add_flexible(const System& system, const ObserverOptions& options);
+  void add_tree_joints(const System& system);
+  void add_closures(const System& system);
+  void add_forces(const System& system);
+  void add_vehicle(const ObserverOptions& options);
+  void add_energy();
+  void add_constraints(const System& system);
+
+  const System& system_;
+  std::vector<Signal> signals_;
+  std::vector<Evaluate> evaluators_;
+  std::vector<double> row_;
+  bool started_ = false;
+  double springs_at_start_ = 0;
+};
+
+}  // namespace wishbone
