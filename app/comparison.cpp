@@ -54,7 +54,7 @@ std::string title_of(const Channel& channel, const std::string& heading) {
   std::string text =
       channel.path.substr(channel.path.find('/', 1) == std::string::npos ? 1 : channel.path.find('/', 1) + 1);
   const std::size_t leaf = text.rfind('/');
-  if (leaf != std::string::npos && heading.ends_with(" " + text.substr(leaf + 1))) text.resize(leaf);
+  if (leaf != std::string::npos && heading.ends_with(text.substr(leaf + 1))) text.resize(leaf);
   std::replace(text.begin(), text.end(), '/', ' ');
   return capitalised(channel.name.empty() ? text : text + " " + channel.name);
 }

@@ -26,7 +26,7 @@ int edit_distance(std::string_view a, std::string_view b) {
 
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& candidates,
                          std::string_view kind) {
-  if (candidates.empty()) return fmt::format("there are no {}", kind);
+  if (candidates.empty()) return "there are none";
   constexpr std::size_t kLongestWord = 100;  // beyond it the quadratic distance is not worth its time
   if (name.size() <= kLongestWord) {
     const auto nearest = std::min_element(

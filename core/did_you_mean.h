@@ -11,7 +11,7 @@ namespace wishbone {
 int edit_distance(std::string_view a, std::string_view b);
 
 /// "did you mean 'stiffness'?" when a candidate is near enough to `name` to be what was meant, otherwise
-/// "`kind` are: a, b, c", and "there are no `kind`" when there is nothing to choose from.
+/// "`kind` are: a, b, c", and "there are none" when there is nothing to choose from.
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& candidates,
                          std::string_view kind);
 

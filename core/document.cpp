@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "core/did_you_mean.h"
@@ -20,11 +21,18 @@ namespace {
 using Kind = YamlNode::Kind;
 using Entry = YamlNode::Entry;
 
+/// The same path for the same file, however it is named; the name itself when there is no such file.
+std::filesystem::path identity_of(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto identity = std::filesystem::weakly_canonical(path, error);
+  return error ? path : identity;
+}
+
 /// Merges a file and its includes, included ones first.
 class Merger {
  public:
   void add_file(const std::filesystem::path& path, const Source& included_from) {
-    const auto identity = std::filesystem::weakly_canonical(path);
+    const auto identity = identity_of(path);
     if (std::find(open_.begin(), open_.end(), identity) != open_.end()) refuse_cycle(path, included_from);
     if (std::find(done_.begin(), done_.end(), identity) != done_.end()) return;
     const YamlNodePtr file = parse_yaml_file(path, included_from);
@@ -49,8 +57,7 @@ class Merger {
 
   [[noreturn]] void refuse_cycle(const std::filesystem::path& path, const Source& included_from) const {
     std::vector<std::string> chain;
-    for (auto it = std::find(open_.begin(), open_.end(), std::filesystem::weakly_canonical(path));
-         it != open_.end(); ++it) {
+    for (auto it = std::find(open_.begin(), open_.end(), identity_of(path)); it != open_.end(); ++it) {
       chain.push_back(it->filename().string());
     }
     chain.push_back(path.filename().string());

@@ -197,6 +197,10 @@ void Object::set_attribute(const std::string& name, const Value& value) {
     write_texts(create(text_type().get(), {}).get(), {text, 1}, where);
   } else {
     const auto& texts = std::get<std::vector<std::string>>(value);
+    if (texts.empty()) {
+      create(text_type().get(), {0});  // no element: there is nothing to write
+      return;
+    }
     write_texts(create(text_type().get(), {texts.size()}).get(), texts, where);
   }
 }

@@ -112,22 +112,22 @@ YamlNodePtr Parameters::value(const std::string& name, const Source& asked_from)
   Parameter& parameter = found->second;
   if (parameter.value) return parameter.value;
 
+  Source where = parameter.setting->where;
+  where.path = "parameters." + name;
   const bool is_cycle = std::find(resolving_.begin(), resolving_.end(), name) != resolving_.end();
   resolving_.push_back(name);
   if (is_cycle) {
     const std::vector<std::string> cycle(std::find(resolving_.begin(), resolving_.end(), name),
                                          resolving_.end());
-    refuse(parameter.setting->where,
-           fmt::format("the parameters refer to one another: {}", fmt::join(cycle, " -> ")), "",
+    refuse(where, fmt::format("the parameters refer to one another: {}", fmt::join(cycle, " -> ")), "",
            "give one of them a value");
   }
   constexpr std::size_t kLongestChain = 100;
   if (resolving_.size() > kLongestChain) {
-    refuse(parameter.setting->where,
-           fmt::format("more than {} parameters refer to one another in a row", kLongestChain), "",
+    refuse(where, fmt::format("more than {} parameters refer to one another in a row", kLongestChain), "",
            "give one of them a value");
   }
-  parameter.value = evaluate(parameter.setting, "parameters." + name);
+  parameter.value = evaluate(parameter.setting, where.path);
   resolving_.pop_back();
   check(name, parameter);
   return parameter.value;

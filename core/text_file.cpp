@@ -87,6 +87,8 @@ std::string read_text_file(const std::filesystem::path& path, std::size_t max_by
   std::string text = read_bytes(path, max_bytes, asked_from);
   if (text.empty()) throw InputError({path.string(), "the file is empty", "", "write a document into it"});
   check_text(path, text);
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
   return text;
 }
 

@@ -124,9 +124,9 @@ Quantity parse_quantity(std::string_view text) {
   if (unit.empty()) return quantity;
   const auto scale = looks_like_unit(unit) ? UnitSystem::instance().scale(unit) : std::nullopt;
   if (!scale) {
-    throw InputError(
-        {"", fmt::format("unknown unit '{}'", unit), fmt::format("'{}'", text),
-         "write units such as km/h, kN/m, N s/m, kg m2, MPa, deg, ms, %; a plain number is in SI units"});
+    throw InputError({"", fmt::format("unknown unit '{}'", unit), fmt::format("'{}'", text),
+                      "write units as in 120 km/h, 47 kN/m, 4 kN s/m, 2 kg m2, 6 deg, 5 ms or 5 %; a plain "
+                      "number is in SI units"});
   }
   quantity.value *= scale->factor;
   quantity.base = scale->base;
@@ -146,7 +146,7 @@ double parse_quantity(std::string_view text, const Dimension& wanted) {
                       fmt::format("wrong dimension: {} [{}] is wanted, this is {}", wanted.name, wanted.unit,
                                   describe_dimension(quantity.base)),
                       fmt::format("'{}'", trimmed(text)),
-                      fmt::format("give it in {} or in a unit that converts to it", wanted.unit)});
+                      fmt::format("give it in {}, or in a unit that converts to it", wanted.unit)});
   }
   return quantity.value;
 }

@@ -106,7 +106,7 @@ int Value::integer(int lowest, int highest) const {
   if (node_->kind != Kind::kScalar) refuse_kind("a whole number", "write one number");
   const double x = number(kRatio);
   if (x != std::floor(x) || x < lowest || x > highest) {
-    refuse("not a whole number in range", fmt::format("give one from {} to {}", lowest, highest));
+    refuse(fmt::format("a whole number from {} to {} is wanted here", lowest, highest), "give one of them");
   }
   return static_cast<int>(x);
 }
@@ -189,7 +189,7 @@ std::optional<Value> Mapping::optional(std::string_view key) const {
 
 Value Mapping::required(std::string_view key) const {
   if (auto value = optional(key)) return *std::move(value);
-  value_.refuse(fmt::format("the key '{}' is missing", key), fmt::format("add '{}: ...'", key));
+  value_.refuse(fmt::format("the key '{}' is missing", key), fmt::format("add '{}: ...' here", key));
 }
 
 void check_identifier(std::string_view name, const Source& where, std::string_view kind) {

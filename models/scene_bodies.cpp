@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
+#include <limits>
 
 #include "models/scene_sections.h"
 
@@ -140,7 +141,13 @@ int read_node(const Value& node, const Scene::Body& body) {
     node.refuse(fmt::format("the body '{}' has no nodes", body.name),
                 "name a position with 'at', or give the body a 'flexible' block");
   }
-  return node.integer(1, block_node_count(*body.flexible));
+  const int count = block_node_count(*body.flexible);
+  const int number = node.integer(std::numeric_limits<int>::min(), std::numeric_limits<int>::max());
+  if (number < 1 || number > count) {
+    node.refuse(fmt::format("the body '{}' has no such node", body.name),
+                fmt::format("its nodes are 1 to {}", count));
+  }
+  return number;
 }
 
 void read_bodies(const Value& section, Scene& scene) {

@@ -72,7 +72,7 @@ int index_of(const std::vector<T>& things, const std::string& name, const Value&
   for (std::size_t i = 0; i < things.size(); ++i) {
     if (name_of(things[i]) == name) return static_cast<int>(i);
   }
-  throw InputError({place.where().text(), fmt::format("'{}' is none of {}", name, kind), "",
+  throw InputError({place.where().text(), fmt::format("there is no '{}' among {}", name, kind), "",
                     did_you_mean(name, names_of(things), kind)});
 }
 

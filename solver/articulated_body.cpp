@@ -61,13 +61,14 @@ void condense_modes(const FlexibleBody& flexible, BodyState& s, FlexibleState& f
 /// A_child = shift(A_parent) + (0, R Psi z'').
 void add_to_flexible_parent(const Matrix6& P_plus, const BodyState& child, const TreeBody& body,
                             const FlexibleBody& parent_flexible, const Matrix3& R_WP, FlexibleState& f) {
-  const auto Psi = parent_flexible.modal.interface_shape(body.parent_node);  // 3 x m, parent axes
+  const Matrix3X& Psi = parent_flexible.modal.interface_shape(body.parent_node);  // 3 x m, parent axes
   Eigen::Matrix<double, 6, 3> X_P = P_plus.rightCols<3>();
   X_P.topRows<3>() += skew(child.p_PB) * P_plus.bottomRightCorner<3, 3>();
   const Eigen::Matrix<double, 3, 6> M_zr_block = R_WP.transpose() * X_P.transpose();
   const Matrix3 P_ll_P = R_WP.transpose() * P_plus.bottomRightCorner<3, 3>() * R_WP;
   f.Y.noalias() += Psi.transpose() * M_zr_block;
-  f.M_zz.noalias() += Psi.transpose() * (P_ll_P * Psi);
+  f.P_Psi.noalias() = P_ll_P * Psi;
+  f.M_zz.noalias() += Psi.transpose() * f.P_Psi;
 }
 
 template <int nv>

@@ -20,15 +20,15 @@ inline constexpr int kMaxProjections = 20;
 
 /// Newton in the metric of kinetic energy: q <- q + M^-1 D^T lambda with D M^-1 D^T lambda = -Phi, until |Phi| <= tolerance,
 /// so that the assembled pose is the nearest one and no momentum is created. Returns the number of iterations, or -1 if
-/// kMaxProjections do not suffice. State velocities are only used for scratch.
+/// kMaxProjections do not suffice. Far from the origin the tolerance gives way to the rounding of world positions. State velocities are only used for scratch.
 int project_positions(const System& system, double tolerance, State& state, Workspace& ws);
 
 /// v <- v + M^-1 D^T lambda with D M^-1 D^T lambda = -(D v + Phi_t): the nearest consistent speeds.
 void project_velocities(const System& system, State& state, Workspace& ws);
 
-/// Makes the initial state consistent: finds and drops redundant closure rows, projects positions and speeds.
-/// @throws InputError naming the closure that stays open, with its residual, when the pose cannot be assembled or a
-///   redundant row contradicts the others
+/// Makes the initial state consistent: projects positions, finds and drops redundant closure rows, projects speeds.
+/// @throws InputError naming the closure that stays open most, with its gap, when no pose near the given one satisfies all
+///   of them: out of reach, or contradictory
 AssemblyReport assemble(const System& system, State& state, Workspace& ws);
 
 }  // namespace wishbone

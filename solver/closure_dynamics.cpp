@@ -11,10 +11,16 @@ namespace {
 
 constexpr int kColumns = 6;  // width of a body's block in Workspace::z, at least the rows of any cut joint
 
-/// A row that keeps less than this part of its length orthogonal to the rows before it is redundant.
+/// Wrenches or forces of the rows of one closure, at most; never on the heap.
+template <int rows>
+using RowBlock = Eigen::Matrix<double, rows, Eigen::Dynamic, 0, rows, kColumns>;
+
+/// A row that keeps less than this part of its scale orthogonal to the rows before it is redundant.
 constexpr double kRankTolerance = 1e-7;
 
-auto wrench_block(Workspace& ws, int body, int columns) { return ws.z.middleCols(body * kColumns, columns); }
+auto wrench_block(Workspace& ws, int body, int columns) {
+  return ws.z.middleCols(body * kColumns, columns);
+}
 
 auto modal_block(const System& system, int k, int first, int columns, Workspace& ws) {
   const FlexibleBody& flexible = system.flexible[k];
@@ -22,8 +28,7 @@ auto modal_block(const System& system, int k, int first, int columns, Workspace&
 }
 
 /// Puts the wrenches W (columns, at marker i, world axes) on the marker's body.
-void start_sweep(const System& system, MarkerIndex i, const Eigen::Ref<const Matrix6X>& W, int first,
-                 Workspace& ws) {
+void start_sweep(const System& system, MarkerIndex i, const RowBlock<6>& W, int first, Workspace& ws) {
   const Marker& marker = system.markers[i];
   if (marker.body < 0) return;
   const BodyState& body = ws.bodies[marker.body];
@@ -33,7 +38,7 @@ void start_sweep(const System& system, MarkerIndex i, const Eigen::Ref<const Mat
   z.topRows<3>().noalias() += skew(p_BM) * W.bottomRows<3>();
   if (marker.node >= 0) {
     const int k = system.bodies[marker.body].flexible;
-    const Matrix3X f_B = body.X_WB.R.transpose() * W.bottomRows<3>();
+    const RowBlock<3> f_B = body.X_WB.R.transpose() * W.bottomRows<3>();
     modal_block(system, k, first, static_cast<int>(W.cols()), ws).noalias() +=
         system.flexible[k].modal.interface_shape(marker.node).transpose() * f_B;
   }
@@ -57,22 +62,50 @@ void sweep_body(const System& system, int i, int first, int columns, Workspace& 
   z_parent.topRows<3>().noalias() += skew(s.p_PB) * z.bottomRows<3>();
   if (body.parent_node >= 0) {
     const int k = system.bodies[body.parent].flexible;
-    const Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, kColumns> f_P =
-        ws.bodies[body.parent].X_WB.R.transpose() * z.bottomRows<3>();
+    const RowBlock<3> f_P = ws.bodies[body.parent].X_WB.R.transpose() * z.bottomRows<3>();
     modal_block(system, k, first, columns, ws).noalias() +=
         system.flexible[k].modal.interface_shape(body.parent_node).transpose() * f_P;
   }
 }
 
-void sweep_closure(const System& system, const Closure& closure, int first, int columns, const Matrix6X& W_A,
-                   const Matrix6X& W_B, Workspace& ws) {
+void sweep_closure(const System& system, const Closure& closure, int first, const RowBlock<6>& W_A,
+                   const RowBlock<6>& W_B, Workspace& ws) {
+  const int columns = static_cast<int>(W_A.cols());
   for (const int i : closure.path) {
     wrench_block(ws, i, columns).setZero();
     if (const int k = system.bodies[i].flexible; k >= 0) modal_block(system, k, first, columns, ws).setZero();
   }
-  start_sweep(system, closure.A, W_A.leftCols(columns), first, ws);
-  start_sweep(system, closure.B, W_B.leftCols(columns), first, ws);
+  start_sweep(system, closure.A, W_A, first, ws);
+  start_sweep(system, closure.B, W_B, first, ws);
   for (const int i : closure.path) sweep_body(system, i, first, columns, ws);
+}
+
+/// U with the wrenches on the two sides of every closure weighted by a and b.
+void calc_weighted_factor(const System& system, double a, double b, Workspace& ws) {
+  std::size_t next = 0;
+  for (const Closure& closure : system.closures) {
+    // the kept rows of this closure, compacted
+    const std::size_t first = next;
+    while (next < ws.kept.size() && ws.kept[next] < closure.row_start + closure.rows) ++next;
+    const auto columns = static_cast<Eigen::Index>(next - first);
+    if (columns == 0) continue;
+    RowBlock<6> W_A(6, columns), W_B(6, columns);
+    for (Eigen::Index j = 0; j < columns; ++j) {
+      W_A.col(j) = a * ws.W_A.col(ws.kept[first + j]);
+      W_B.col(j) = b * ws.W_B.col(ws.kept[first + j]);
+    }
+    sweep_closure(system, closure, static_cast<int>(first), W_A, W_B, ws);
+  }
+}
+
+/// Lengths that the columns of U would have if the two sides of a closure moved independently: what rounding is to be
+/// measured by where both sides move alike and the column vanishes.
+VectorX calc_row_scales(const System& system, Workspace& ws) {
+  calc_weighted_factor(system, 1, 0, ws);
+  const VectorX A = ws.U.colwise().squaredNorm();
+  calc_weighted_factor(system, 0, 1, ws);
+  const VectorX B = ws.U.colwise().squaredNorm();
+  return (A + B).cwiseSqrt();
 }
 
 }  // namespace
@@ -94,14 +127,15 @@ void update_closures(const System& system, Workspace& ws) {
         [&](const auto& joint) {
           constexpr int n = std::decay_t<decltype(joint)>::kRows;
           joint.residual(A, B, ws.Phi.segment<n>(closure.row_start));
-          joint.wrenches(A, B, ws.W_A.middleCols<n>(closure.row_start),
-                         ws.W_B.middleCols<n>(closure.row_start));
+          auto W_A = ws.W_A.middleCols<n>(closure.row_start);
+          auto W_B = ws.W_B.middleCols<n>(closure.row_start);
+          joint.wrenches(A, B, W_A, W_B);
+          // Phi' = W_A^T V_A + W_B^T V_B
+          auto Phi_rate = ws.Phi_rate.segment<n>(closure.row_start);
+          Phi_rate.noalias() = W_A.transpose() * spatial(A.w_WM, A.v_WM);
+          Phi_rate.noalias() += W_B.transpose() * spatial(B.w_WM, B.v_WM);
         },
         closure.joint);
-    // Phi' = W_A^T V_A + W_B^T V_B
-    ws.Phi_rate.segment(closure.row_start, closure.rows) =
-        ws.W_A.middleCols(closure.row_start, closure.rows).transpose() * spatial(A.w_WM, A.v_WM) +
-        ws.W_B.middleCols(closure.row_start, closure.rows).transpose() * spatial(B.w_WM, B.v_WM);
   }
 }
 
@@ -117,20 +151,7 @@ void update_closure_accelerations(const System& system, Workspace& ws) {
         closure.joint);
 }
 
-void calc_closure_factor(const System& system, Workspace& ws) {
-  std::size_t next = 0;
-  for (const Closure& closure : system.closures) {
-    // the kept rows of this closure, compacted
-    const int first = static_cast<int>(next);
-    Eigen::Matrix<double, 6, kColumns> W_A, W_B;
-    int columns = 0;
-    for (; next < ws.kept.size() && ws.kept[next] < closure.row_start + closure.rows; ++next, ++columns) {
-      W_A.col(columns) = ws.W_A.col(ws.kept[next]);
-      W_B.col(columns) = ws.W_B.col(ws.kept[next]);
-    }
-    if (columns > 0) sweep_closure(system, closure, first, columns, W_A, W_B, ws);
-  }
-}
+void calc_closure_factor(const System& system, Workspace& ws) { calc_weighted_factor(system, 1, 1, ws); }
 
 void factor_closures(const System& system, Workspace& ws) {
   ++ws.work.closure_factorizations;
@@ -141,9 +162,10 @@ void factor_closures(const System& system, Workspace& ws) {
   if (llt.info() == Eigen::Success) return;
   Eigen::Index worst = 0;
   ws.DMD.diagonal().minCoeff(&worst);
-  throw NumericsError({"cut joint '" + system.row_name(ws.kept[worst]) + "'",
-                       "the closure has become dependent on the others: the mechanism is at a singular position", "",
-                       "start from another position, or remove the redundant joint"});
+  throw NumericsError(
+      {"cut joint '" + system.row_name(ws.kept[worst]) + "'",
+       "the closure has become dependent on the others: the mechanism is at a singular position", "",
+       "start from another position, or remove the redundant joint"});
 }
 
 void solve_multipliers(const VectorX& r, Workspace& ws) {
@@ -157,15 +179,14 @@ void solve_multipliers(const VectorX& r, Workspace& ws) {
 std::vector<int> find_independent_rows(const System& system, Workspace& ws) {
   // Gram-Schmidt (twice, for safety) in the order of the scene: a row that nothing is left of is redundant. Pivoting by
   // length would find the same rank but name a different row from scene to scene.
+  const VectorX scales = calc_row_scales(system, ws);
   calc_closure_factor(system, ws);
   std::vector<int> independent;
   MatrixX basis(system.nv, 0);
   for (std::size_t i = 0; i < ws.kept.size(); ++i) {
     VectorX u = ws.U.col(static_cast<Eigen::Index>(i));
-    const double length = u.norm();
-    if (length > 0)
-      for (int pass = 0; pass < 2; ++pass) u -= basis * (basis.transpose() * u);
-    if (!(length > 0) || u.norm() <= kRankTolerance * length) continue;
+    for (int pass = 0; pass < 2; ++pass) u -= basis * (basis.transpose() * u);
+    if (u.norm() <= kRankTolerance * scales[static_cast<Eigen::Index>(i)]) continue;
     independent.push_back(ws.kept[i]);
     basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
     basis.rightCols<1>() = u.normalized();

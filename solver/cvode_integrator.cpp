@@ -110,7 +110,11 @@ void CvodeIntegrator::create(const State& state, const Work& work) {
       CVodeSetProjErrEst(cvode, SUNFALSE);
     }
   }
-  if (event_count_ > 0) CVodeRootInit(cvode, event_count_, events);
+  if (event_count_ > 0) {
+    std::vector<int> falling(event_count_, -1);
+    CVodeRootInit(cvode, event_count_, events);
+    CVodeSetRootDirection(cvode, falling.data());
+  }
 }
 
 void CvodeIntegrator::restart(const State& state, const Work& work) {

@@ -86,7 +86,11 @@ void ErkIntegrator::create(const State& state, const Work& work) {
   ERKStepSetTableNum(arkode, ARKODE_DORMAND_PRINCE_7_4_5);
   if (options_.max_step > 0) ERKStepSetMaxStep(arkode, options_.max_step);
   ERKStepSetPostprocessStepFn(arkode, project);
-  if (event_count_ > 0) ERKStepRootInit(arkode, event_count_, events);
+  if (event_count_ > 0) {
+    std::vector<int> falling(event_count_, -1);
+    ERKStepRootInit(arkode, event_count_, events);
+    ERKStepSetRootDirection(arkode, falling.data());
+  }
 }
 
 void ErkIntegrator::restart(const State& state, const Work& work) {

@@ -13,7 +13,7 @@ int event_count(const System& system);
 /// Sets the discrete states for the current positions of the markers.
 void initialize_segments(const System& system, Workspace& ws);
 
-/// Values of all event functions (positive inside). Needs update_markers.
+/// Values of all event functions, positive inside: only their falling through zero is an event. Needs update_markers.
 void calc_events(const System& system, const Workspace& ws, std::span<double> g);
 
 /// Moves the element that owns the event on to its next segment.

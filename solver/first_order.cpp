@@ -1,11 +1,14 @@
 #include "solver/first_order.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "solver/assembly.h"
 #include "solver/events.h"
 #include "solver/forward_dynamics.h"
 #include "solver/kinematics.h"
+#include "solver/loads.h"
 
 namespace wishbone {
 namespace {
@@ -14,16 +17,23 @@ State sized_state(const System& system) {
   return {0, VectorX::Zero(system.nq), VectorX::Zero(system.nv), VectorX::Zero(system.nx)};
 }
 
-void require_finite(const System& system, double t, const VectorX& v_rate) {
-  if (v_rate.allFinite()) return;
+}  // namespace
+
+void require_finite(const System& system, double t, const Eigen::Ref<const VectorX>& rates,
+                    const Workspace& ws) {
+  if (rates.allFinite()) return;
+  for_each_force(system, [&](const auto& element, int index) {
+    if (std::isfinite(ws.element_powers[index])) return;
+    throw NumericsError({fmt::format("{} at t = {:.9g} s", element.name(), t),
+                         "the force is not a finite number", "",
+                         "look for extreme values in its parameters and in the motion of its markers"});
+  });
   Eigen::Index i = 0;
-  while (std::isfinite(v_rate[i])) ++i;
-  throw NumericsError({system.speed_name(static_cast<int>(i)) + " at t = " + std::to_string(t) + " s",
-                       "the acceleration is not a finite number", std::to_string(v_rate[i]),
+  while (std::isfinite(rates[i])) ++i;
+  throw NumericsError({fmt::format("{} at t = {:.9g} s", system.speed_name(static_cast<int>(i)), t),
+                       "the acceleration is not a finite number", fmt::format("{}", rates[i]),
                        "look for extreme values in the forces that act on this body"});
 }
-
-}  // namespace
 
 FirstOrderSystem::FirstOrderSystem(const System& system, Workspace& ws)
     : system_(system),
@@ -51,7 +61,7 @@ void FirstOrderSystem::unpack(double t, const Eigen::Ref<const VectorX>& y, Stat
 void FirstOrderSystem::calc_rate(double t, const Eigen::Ref<const VectorX>& y, Eigen::Ref<VectorX> y_rate) {
   unpack(t, y, state_, work_);
   calc_forward_dynamics(system_, state_, ws_);
-  require_finite(system_, t, ws_.v_rate);
+  require_finite(system_, t, ws_.v_rate, ws_);
   calc_joint_forces(system_, ws_);
   calc_q_rate(system_, state_.q, state_.v, q_rate_);
   y_rate.head(system_.nq) = q_rate_;
@@ -80,7 +90,9 @@ void FirstOrderSystem::calc_events(double t, const Eigen::Ref<const VectorX>& y,
   wishbone::calc_events(system_, ws_, {g, static_cast<std::size_t>(event_count(system_))});
 }
 
-double FirstOrderSystem::tolerance_scale() const { return 1.0 / std::sqrt(static_cast<double>(size_)); }
+double FirstOrderSystem::tolerance_scale() const {
+  return 1.0 / std::sqrt(static_cast<double>(size_));
+}
 
 void FirstOrderSystem::set_tolerances(double atol, Eigen::Ref<VectorX> tolerances) const {
   tolerances.setConstant(tolerance_scale() * atol);
@@ -94,7 +106,8 @@ std::string FirstOrderSystem::name(Eigen::Index i) const {
         return body.joint_name + ": coordinate " + std::to_string(i - body.q_start + 1);
     for (const FlexibleBody& body : system_.flexible)
       if (i >= body.z_start && i < body.z_start + body.modal.mode_count())
-        return system_.bodies[body.body].name + ": amplitude of elastic mode " + std::to_string(i - body.z_start + 1);
+        return system_.bodies[body.body].name + ": amplitude of elastic mode " +
+               std::to_string(i - body.z_start + 1);
   }
   i -= system_.nq;
   if (i < system_.nv) return system_.speed_name(static_cast<int>(i));

@@ -10,6 +10,10 @@
 
 namespace wishbone {
 
+/// Checks the accelerations (or residuals) of an evaluation, one for each speed.
+/// @throws NumericsError naming the first force element that is not finite, else the first speed that is not
+void require_finite(const System& system, double t, const Eigen::Ref<const VectorX>& rates, const Workspace& ws);
+
 /// The equations of motion as y' = f(t, y) with y = (q, v, x, work), x the states of the force elements and work the two
 /// energies that have crossed the boundary. Also the guard between C++ exceptions and a C integrator.
 class FirstOrderSystem {
@@ -19,6 +23,7 @@ class FirstOrderSystem {
   Eigen::Index size() const { return size_; }
   const System& system() const { return system_; }
   Workspace& workspace() { return ws_; }
+  const Workspace& workspace() const { return ws_; }
 
   void pack(const State& state, const Work& work, Eigen::Ref<VectorX> y) const;
   void unpack(double t, const Eigen::Ref<const VectorX>& y, State& state, Work& work) const;

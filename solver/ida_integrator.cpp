@@ -87,7 +87,7 @@ IdaIntegrator::IdaIntegrator(const System& system, const IntegratorOptions& opti
 }
 
 void IdaIntegrator::expand_multipliers(const Eigen::Ref<const VectorX>& kept, VectorX& all) const {
-  const std::vector<int>& rows = const_cast<FirstOrderSystem&>(equations_).workspace().kept;
+  const std::vector<int>& rows = equations_.workspace().kept;
   for (std::size_t i = 0; i < rows.size(); ++i) all[rows[i]] = kept[i];
 }
 
@@ -104,6 +104,7 @@ void IdaIntegrator::calc_residual(double t, const Eigen::Ref<const VectorX>& y,
 
   // M v' - f - D^T Lambda'
   calc_motion_residual(system, state_, v_rate_, lambda_, ws, r.segment(nq, nv));
+  require_finite(system, t, r.segment(nq, nv), ws);
   r.segment(nq + nv, nx) = y_rate.segment(nq + nv, nx) - ws.x_rate;
   const Work rate = calc_work_rate(system, t, ws);
   r[n - 2] = y_rate[n - 2] - rate.loss;
@@ -148,7 +149,11 @@ void IdaIntegrator::create() {
   matrix_.reset(SUNDenseMatrix(n, n, context_));
   linear_.reset(SUNLinSol_Dense(y_.get(), matrix_.get(), context_));
   IDASetLinearSolver(ida, linear_.get(), matrix_.get());
-  if (event_count_ > 0) IDARootInit(ida, event_count_, events);
+  if (event_count_ > 0) {
+    std::vector<int> falling(event_count_, -1);
+    IDARootInit(ida, event_count_, events);
+    IDASetRootDirection(ida, falling.data());
+  }
 }
 
 void IdaIntegrator::restart(const State& state, const Work& work) {

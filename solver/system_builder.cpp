@@ -46,19 +46,21 @@ Pose SystemBuilder::attachment_pose(Attachment on) const {
   return {body.X_WB.R, body.X_WB * Vector3(body.modes.node_position.col(column))};
 }
 
-void SystemBuilder::add_joint(std::string name, Attachment parent, int child, const Vector3& p_W, TreeJoint joint,
-                              double coordinate, double speed) {
+void SystemBuilder::add_joint(std::string name, Attachment parent, int child, const Vector3& p_W,
+                              TreeJoint joint, double coordinate, double speed) {
   BodyEntry& body = bodies_[child];
   if (body.joint >= 0)
-    throw InputError({"joint '" + name + "'",
-                      "body '" + body.name + "' already hangs on tree joint '" + joints_[body.joint].name + "'", "",
-                      "cut one of the two joints"});
+    throw InputError(
+        {"joint '" + name + "'",
+         "body '" + body.name + "' already hangs on tree joint '" + joints_[body.joint].name + "'", "",
+         "cut one of the two joints"});
   if (body.flexible && !std::holds_alternative<FreeJoint>(joint))
     throw InputError({"joint '" + name + "'", "a flexible body can only be carried by a free joint",
                       "body '" + body.name + "'",
                       "name the flexible body first (as the parent) or cut the joint"});
   body.joint = static_cast<int>(joints_.size());
-  joints_.push_back({std::move(name), parent, interface_index(parent), child, p_W, std::move(joint), coordinate, speed});
+  joints_.push_back(
+      {std::move(name), parent, interface_index(parent), child, p_W, std::move(joint), coordinate, speed});
 }
 
 MarkerIndex SystemBuilder::add_marker(Attachment on, const Vector3& p_W, const Matrix3& R_WM) {
@@ -129,12 +131,14 @@ void SystemBuilder::add_tree_body(int entry, System& system, State& state) {
   std::visit([&](const auto& joint) { joint.set_neutral(q.data()); }, body.joint);
 
   if (std::holds_alternative<FreeJoint>(body.joint)) {
-    // F is the parent's frame, M the body frame: the coordinates are the pose itself
-    const Pose X_WP = body.parent < 0 ? Pose{} : bodies_[joints_[source.joint].parent.body].X_WB;
-    const Pose X_PB = X_WP.inverse() * source.X_WB;
-    const Quaternion Q_PB(X_PB.R);
-    q << Q_PB.w(), Q_PB.x(), Q_PB.y(), Q_PB.z(), X_PB.p;
-    v << source.w_WB_B, X_WP.R.transpose() * source.v_WB;
+    // F is the frame of the parent or of its node, M the body frame: the coordinates are the pose itself
+    const Attachment parent = source.joint < 0 ? Attachment{} : joints_[source.joint].parent;
+    const Pose X_WF = attachment_pose(parent);
+    if (parent.body != kGround) body.X_PF = bodies_[parent.body].X_WB.inverse() * X_WF;
+    const Pose X_FB = X_WF.inverse() * source.X_WB;
+    const Quaternion Q_FB(X_FB.R);
+    q << Q_FB.w(), Q_FB.x(), Q_FB.y(), Q_FB.z(), X_FB.p;
+    v << source.w_WB_B, X_WF.R.transpose() * source.v_WB;
   } else {
     // F and M stand at the joint with the child's axes
     const JointEntry& joint = joints_[source.joint];
@@ -206,10 +210,9 @@ std::pair<System, State> SystemBuilder::build() && {
              system.forces);
   std::apply(
       [&](const auto&... lists) {
-        ((
-             [&](const auto& list) {
-               for (const auto& element : list) system.nx += element.state_count();
-             }(lists)),
+        (([&](const auto& list) {
+           for (const auto& element : list) system.nx += element.state_count();
+         }(lists)),
          ...);
       },
       system.forces);

@@ -50,6 +50,8 @@ class SystemBuilder {
   }
 
   const Pose& design_pose(int body) const { return bodies_[body].X_WB; }
+  /// Design pose of an attachment: of its body, or the node's position with the body's axes.
+  Pose attachment_pose(Attachment on) const;
 
   /// The compiled system and its initial state (not yet assembled onto the closures).
   /// @throws InputError naming the body when a body has two tree joints, or the joints form a cycle
@@ -81,7 +83,6 @@ class SystemBuilder {
   };
 
   int interface_index(Attachment on);
-  Pose attachment_pose(Attachment on) const;
   std::vector<int> topological_order() const;
   void add_tree_body(int entry, System& system, State& state);
   void find_paths(System& system) const;

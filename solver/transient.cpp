@@ -69,21 +69,24 @@ class Run {
     const double slack = 1e-12 * std::max(1.0, std::abs(t));
     while (output_time(next_output_) <= t + slack && output_time(next_output_) <= options_.duration + slack) {
       const double t_out = output_time(next_output_);
-      integrator_->interpolate(std::min(t_out, t), state_, work_);
+      interpolate(std::min(t_out, t));
       state_.t = t_out;
-      normalize_quaternions(system_, state_.q);
       emit();
     }
   }
 
-  void restart(double t, TransientSummary& summary) {
+  /// The state at a time within the last step, brought onto the closures: a polynomial between two closed poses is not
+  /// closed itself.
+  void interpolate(double t) {
     integrator_->interpolate(t, state_, work_);
-    state_.t = t;
     normalize_quaternions(system_, state_.q);
-    if (!ws_.kept.empty()) {
-      project_positions(system_, kProjectionTolerance, state_, ws_);
-      project_velocities(system_, state_, ws_);
-    }
+    if (ws_.kept.empty()) return;
+    project_positions(system_, kProjectionTolerance, state_, ws_);
+    project_velocities(system_, state_, ws_);
+  }
+
+  void restart(double t, TransientSummary& summary) {
+    interpolate(t);
     integrator_->restart(state_, work_);
     ++summary.restarts;
   }
@@ -113,8 +116,9 @@ class Run {
 
 }  // namespace
 
-TransientSummary run_transient(const System& system, State state, const TransientOptions& options, Workspace& ws,
-                               const Output& output, const std::function<bool(double)>& keep_going) {
+TransientSummary run_transient(const System& system, State state, const TransientOptions& options,
+                               Workspace& ws, const Output& output,
+                               const std::function<bool(double)>& keep_going) {
   TransientSummary summary;
   Run run(system, std::move(state), options, ws, output);
   try {

@@ -25,7 +25,7 @@ Workspace::Workspace(const System& system)
     const int m = body.modal.mode_count();
     flexible.push_back({body.modal.make_state(), VectorX::Zero(m),
                         body.carries_joints ? MatrixX(MatrixX::Identity(m, m)) : MatrixX(),
-                        MatrixX::Zero(m, 6), VectorX::Zero(m), VectorX::Zero(m)});
+                        MatrixX::Zero(m, 6), Matrix3X::Zero(3, m), VectorX::Zero(m), VectorX::Zero(m)});
   }
   std::vector<int> all(system.n_rows);
   std::iota(all.begin(), all.end(), 0);

@@ -30,6 +30,7 @@ struct FlexibleState {
   VectorX load;    ///< modal load Q = sum Psi_i^T f_i
   MatrixX M_zz;    ///< modal mass, identity plus what hangs on the nodes; its Cholesky factor after factoring
   MatrixX Y;       ///< L_z^-1 M_zr, m x 6
+  Matrix3X P_Psi;  ///< scratch: a child's P+ times the shapes of its node
   VectorX bias;    ///< z bias, then L_z^-1 of it
   VectorX z_dd;    ///< z''
 };

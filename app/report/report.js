@@ -3,7 +3,7 @@
   const data = JSON.parse(document.getElementById("data").textContent);
   const style = getComputedStyle(document.documentElement);
   const colors = ["--a", "--b"].map((name) => style.getPropertyValue(name).trim());
-  const widths = [3.6, 1.4]; // B is drawn over A: the wider A stays visible where the two agree
+  const widths = [4.2, 1.8]; // B is drawn over A: the wider A stays visible where the two agree
   const graphs = [];
 
   function floats(text) {

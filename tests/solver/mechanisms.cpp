@@ -1,8 +1,121 @@
 #include "solver/mechanisms.h"
 
+#include <cmath>
+
 #include "solver/forward_dynamics.h"
+#include "solver/kinematics.h"
 
 namespace wishbone::testing {
+namespace {
+
+constexpr int kBlockModes = 6;
+
+TreeJoint random_joint(int kind, Random& random) {
+  const Vector3 axis = random.vector(1).normalized();
+  switch (kind) {
+    case 0:
+      return FixedJoint{};
+    case 1:
+      return RevoluteJoint{axis};
+    case 2:
+      return PrismaticJoint{axis};
+    case 3:
+      return SphericalJoint{};
+    case 4:
+      return FreeJoint{};
+    case 5:
+      return PrescribedJoint{PrescribedJoint::Kind::revolute, axis, Motion("turn", 0.3, {{0, 2, 1.5}})};
+    default:
+      return PrescribedJoint{PrescribedJoint::Kind::prismatic, axis, Motion("push", -0.2, {{0, 2, 0.8}})};
+  }
+}
+
+/// A rod between two points of the x-y plane, 1 kg/m.
+int add_rod(SystemBuilder& b, const std::string& name, const Vector3& from, const Vector3& to) {
+  const double length = (to - from).norm(), J = length * length * length / 12;
+  const double angle = std::atan2(to.y() - from.y(), to.x() - from.x());
+  return b.add_body(name, length, diagonal(1e-3, J, J),
+                    {Eigen::AngleAxisd(angle, Vector3::UnitZ()).toRotationMatrix(), (from + to) / 2});
+}
+
+struct RandomBuilder {
+  SystemBuilder builder;
+  std::vector<Attachment> attachments;  // bodies, nodes and the ground, where anything may take hold
+};
+
+RandomBuilder random_bodies(Random& random) {
+  RandomBuilder r;
+  SystemBuilder& b = r.builder;
+  b.gravity = random.vector(10);
+  const int block =
+      b.add_flexible_body("block", block_modes(kBlockModes), {random.rotation(), random.vector(2)});
+  b.set_velocity(block, random.vector(2), random.vector(2));
+  std::vector<int> bodies{SystemBuilder::kGround, block};
+  r.attachments = {{SystemBuilder::kGround}, {block}, {block, 3}, {block, 10}, {block, 16}};
+  for (int i = 0; i < 9; ++i) {
+    const Pose X_WB{random.rotation(), random.vector(2)};
+    const int body = b.add_body("body " + std::to_string(i), random.uniform(1, 20), random.inertia(3), X_WB);
+    const std::string name = "joint " + std::to_string(i);
+    if (i >= 7) {  // two hang on nodes of the block
+      const Attachment node{block, i == 7 ? 3 : 13};
+      b.add_joint(name, node, body, b.attachment_pose(node).p, SphericalJoint{});
+    } else {
+      const int parent = bodies[random.index(static_cast<int>(bodies.size()))];
+      b.add_joint(name, {parent}, body, random.vector(2), random_joint(i, random));
+    }
+    bodies.push_back(body);
+    r.attachments.push_back({body});
+  }
+  return r;
+}
+
+MarkerIndex random_marker(RandomBuilder& r, Random& random) {
+  const Attachment on = r.attachments[random.index(static_cast<int>(r.attachments.size()))];
+  return on.node_id != 0 ? r.builder.add_marker(on)
+                         : r.builder.add_marker(on, random.vector(2), random.rotation());
+}
+
+void add_random_forces(RandomBuilder& r, Random& random) {
+  for (int i = 0; i < 6; ++i) {
+    const MarkerIndex P = random_marker(r, random), Q = random_marker(r, random);
+    r.builder.add_force(SpringDamper("spring " + std::to_string(i), P, Q, random.uniform(0, 500),
+                                     random.uniform(0, 50), random.uniform(0, 1)));
+  }
+  for (const LoadAxes axes : {LoadAxes::kWorld, LoadAxes::kMarker})
+    r.builder.add_force(
+        AppliedLoad("load", random_marker(r, random), {random.vector(50), random.vector(50)}, axes));
+}
+
+void randomize(Built& m, Random& random) {
+  m.state.t = random.uniform(0.5, 1.5);
+  retract(m.system, random.numbers(m.system.nv, 1), m.state.q);
+  m.state.v += random.numbers(m.system.nv, 1);
+}
+
+}  // namespace
+
+Workspace assembled(Built& mechanism) {
+  Workspace ws(mechanism.system);
+  assemble(mechanism.system, mechanism.state, ws);
+  return ws;
+}
+
+Trajectory simulate(const System& system, const State& initial, double duration, double interval,
+                    double tolerance, Method method, Form form) {
+  Workspace ws(system);
+  TransientOptions options;
+  options.duration = duration;
+  options.interval = interval;
+  options.integrator.form = form;
+  options.integrator.method = method;
+  options.integrator.rtol = options.integrator.atol = tolerance;
+  Trajectory trajectory;
+  trajectory.summary = run_transient(system, initial, options, ws, [&](const State& s, const Work& w) {
+    trajectory.states.push_back(s);
+    trajectory.work.push_back(w);
+  });
+  return trajectory;
+}
 
 double energy_balance(const System& system, const State& state, const Work& work) {
   Workspace ws(system);
@@ -31,6 +144,53 @@ Vector6 momentum(const System& system, const State& state) {
     total += spatial(s.X_WB.R * L_B + s.X_WB.p.cross(p), p);
   }
   return total;
+}
+
+ModeSet block_modes(int modes, double youngs_modulus) {
+  return free_free_modes(make_block({1.2, 0.4, 0.3}, {3, 1, 1}), {youngs_modulus, 0.3, 2000}).lowest(modes);
+}
+
+Built random_tree(unsigned seed) {
+  Random random(seed);
+  RandomBuilder r = random_bodies(random);
+  add_random_forces(r, random);
+  Built m = build(std::move(r.builder));
+  randomize(m, random);
+  return m;
+}
+
+Built random_loops(unsigned seed) {
+  Random random(seed);
+  RandomBuilder r = random_bodies(random);
+  const auto nth = [&](int i) { return r.builder.add_marker(r.attachments[i]); };
+  r.builder.add_closure("node to body", nth(2), nth(7), SphericalClosure{});
+  r.builder.add_closure("body to body", nth(9), nth(11), RevoluteClosure{});
+  r.builder.add_closure("node to node's body", nth(3), nth(12), SphericalClosure{});
+  r.builder.add_closure("ground to body", nth(0), nth(13), SphericalClosure{});
+  add_random_forces(r, random);
+  Built m = build(std::move(r.builder));
+  randomize(m, random);
+  return m;
+}
+
+Built four_bar(const CutJoint& cut, double crank_rate) {
+  const double a = 1, b = 3, c = 2.5, d = 3, th = M_PI / 3;
+  const Vector3 A(0, 0, 0), D(d, 0, 0), B(a * std::cos(th), a * std::sin(th), 0);
+  // C lies on the circles about B and D, above the line BD
+  const Vector3 BD = D - B;
+  const double s = BD.norm(), along = (b * b - c * c + s * s) / (2 * s);
+  const Vector3 C = B + along * BD / s + std::sqrt(b * b - along * along) * Vector3(-BD.y(), BD.x(), 0) / s;
+
+  SystemBuilder builder;
+  builder.gravity = {0, -9.81, 0};
+  const int crank = add_rod(builder, "crank", A, B);
+  const int coupler = add_rod(builder, "coupler", B, C);
+  const int rocker = add_rod(builder, "rocker", D, C);
+  builder.add_joint("A", {}, crank, A, RevoluteJoint{}, 0, crank_rate);
+  builder.add_joint("B", {crank}, coupler, B, RevoluteJoint{});
+  builder.add_joint("D", {}, rocker, D, RevoluteJoint{});
+  builder.add_closure("C", builder.add_marker({coupler}, C), builder.add_marker({rocker}, C), cut);
+  return build(std::move(builder));
 }
 
 }  // namespace wishbone::testing

@@ -7,33 +7,16 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <new>
 #include <sstream>
 
+#include "allocation_counter.h"
 #include "core/error.h"
 #include "solver/result_file.h"
 #include "temporary_folder.h"
-
-namespace {
-std::atomic<long> allocations{0};
-}
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* p = std::malloc(size)) return p;
-  throw std::bad_alloc();
-}
-void operator delete(void* p) noexcept {
-  std::free(p);
-}
-void operator delete(void* p, std::size_t) noexcept {
-  std::free(p);
-}
 
 namespace wishbone {
 namespace {
@@ -237,9 +220,9 @@ TEST(Recorder, AppendAllocatesNothingBetweenCommits) {
   const TemporaryFolder folder;
   Recorder recorder(folder / "a.h5", three_signals(), {.chunk_rows = 128});
   const std::vector<double> row = row_of(1);
-  const long before = allocations;
+  const long before = allocation_count();
   for (int n = 0; n < 127; ++n) recorder.append(0.005 * n, row);
-  EXPECT_EQ(allocations - before, 0);
+  EXPECT_EQ(allocation_count() - before, 0);
 }
 
 TEST(Recorder, RowsThatDoNotFitAreRefused) {

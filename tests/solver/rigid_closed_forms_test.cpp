@@ -9,6 +9,8 @@
 namespace wishbone {
 namespace {
 
+using testing::build;
+using testing::Built;
 using testing::diagonal;
 using testing::energy_balance;
 using testing::momentum;
@@ -17,19 +19,7 @@ using testing::Trajectory;
 
 constexpr double kG = 9.81;
 
-struct Built {
-  System system;
-  State state;
-};
-
-Built build(SystemBuilder&& builder) {
-  auto [system, state] = std::move(builder).build();
-  return {std::move(system), std::move(state)};
-}
-
-/// Point masses on massless rods cannot be built from bodies with inertia; a rod's end mass with inertia J about its own
-/// centre swings like a point mass when its joint is at the centre of mass... so the pendulum here is the exact point-mass
-/// one with a negligible, but positive, inertia folded into the length.
+/// A point mass on a massless rod, at `angle` from the downward vertical.
 Built make_pendulum(double length, double angle) {
   SystemBuilder b;
   b.gravity = Vector3(0, -kG, 0);
@@ -100,22 +90,17 @@ TEST(RigidClosedForms, DoublePendulumMatchesQuadruplePrecision) {
   b.add_joint("elbow", {first}, second, {1, 0, 0}, RevoluteJoint{Vector3::UnitZ()});
   const Built m = build(std::move(b));
   const Trajectory run = simulate(m.system, m.state, 5.0, 1.0, 1e-12);
-  const double th1[] = {M_PI / 2,
-                        -6.250876998063906299541e-01,
-                        -4.829715342517543774491e-01,
-                        1.785795522077416676215e+00,
-                        1.8e9,
-                        -6.271867050665307301381e-01};
-  const double th2[] = {M_PI / 2,
-                        -1.034585085680012340612e+00,
-                        -1.324048712302362548786e+00,
-                        1.118107461205155440445e+00,
-                        1.8e9,
-                        -1.301315550209811677908e+00};
-  for (const int t : {1, 2, 3, 5}) {
+  struct Sample {
+    int t;
+    double th1, th2;  // from the downward vertical
+  };
+  for (const auto& [t, th1, th2] : {Sample{1, -6.250876998063906299541e-01, -1.034585085680012340612e+00},
+                                    {2, -4.829715342517543774491e-01, -1.324048712302362548786e+00},
+                                    {3, 1.785795522077416676215e+00, 1.118107461205155440445e+00},
+                                    {5, -6.271867050665307301381e-01, -1.301315550209811677908e+00}}) {
     const State& s = run.states[t];
-    EXPECT_NEAR(s.q[0] + M_PI / 2, th1[t], 1e-9) << "t = " << t;
-    EXPECT_NEAR(s.q[0] + s.q[1] + M_PI / 2, th2[t], 1e-9) << "t = " << t;
+    EXPECT_NEAR(s.q[0] + M_PI / 2, th1, 1e-9) << "t = " << t;
+    EXPECT_NEAR(s.q[0] + s.q[1] + M_PI / 2, th2, 1e-9) << "t = " << t;
   }
 }
 
