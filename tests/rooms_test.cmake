@@ -1,6 +1,7 @@
 # A room includes only rooms below it (docs/architecture.md). Run as a script: cmake -P rooms_test.cmake
-set(below_core "")
 cmake_minimum_required(VERSION 3.25)
+
+set(below_core "")
 set(below_bodies core)
 set(below_joints ${below_bodies} bodies)
 set(below_forces ${below_joints})
