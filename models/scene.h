@@ -165,7 +165,7 @@ struct Scene {
     double rtol = 1e-6;              ///< relative tolerance
     double atol = 1e-8;              ///< absolute tolerance [m, rad, m/s, rad/s]
     std::optional<double> max_step;  ///< [s]
-    std::optional<int> max_steps;    ///< between two outputs
+    std::optional<int> max_steps;    ///< of the integrator, in the whole run
     Source where;
   };
 

@@ -1,13 +1,12 @@
+# What the library needs, in the build and again wherever its installation is found (wishboneConfig.cmake).
 # Everything comes from the distribution's packages (scripts/install-packages lists them).
 find_package(Eigen3 3.4 REQUIRED)
 find_package(fmt 9 REQUIRED)
 find_package(yaml-cpp 0.7 REQUIRED)
-find_package(CLI11 2.1 REQUIRED)
 find_package(muparser REQUIRED)
 if(NOT TARGET muparser::muparser)  # Debian 12 exports the target without a namespace
   add_library(muparser::muparser ALIAS muparser)
 endif()
-find_package(nlohmann_json 3.11 REQUIRED)
 find_package(SUNDIALS 6.4 REQUIRED COMPONENTS cvode ida arkode)
 
 # The serial HDF5 by its own pkg-config name: the plain name turns into the MPI flavour as soon as PETSc

@@ -6,7 +6,9 @@ install(TARGETS wishbone EXPORT wishboneTargets
 install(TARGETS wishbone_command RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 foreach(room IN ITEMS core bodies joints forces identification solver models)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room}
-    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/wishbone FILES_MATCHING PATTERN "*.h")
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/wishbone FILES_MATCHING PATTERN "*.h"
+    # private: the first needs the headers of SUNDIALS, the second is half of the scene loader
+    PATTERN sundials.h EXCLUDE PATTERN scene_sections.h EXCLUDE PATTERN scenes EXCLUDE)
 endforeach()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/models/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/wishbone)
 
