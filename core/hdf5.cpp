@@ -133,6 +133,7 @@ std::vector<std::string> read_texts(hid_t attribute, hid_t stored_type, hid_t sp
                                     const std::string& where) {
   const auto count = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space));
   std::vector<std::string> texts;
+  if (count == 0) return texts;  // H5Aread refuses the null buffer
   if (H5Tis_variable_str(stored_type) > 0) {
     std::vector<char*> pointers(count, nullptr);
     const Handle type = text_type();

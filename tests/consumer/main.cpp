@@ -12,8 +12,8 @@ using namespace wishbone;
 
 namespace {
 
-constexpr double kMass = 2.0;    // [kg]
-constexpr double kLength = 0.9;  // [m]
+constexpr double kMass = 2.0;                    // [kg]
+constexpr double kLength = 0.9;                  // [m]
 constexpr double kStart = std::numbers::pi / 3;  // [rad]
 
 // sin(theta/2) = k cd(omega t, k) with k = sin(kStart/2), omega^2 = 3 g/(2 L): 40-digit arithmetic gave
@@ -24,7 +24,8 @@ std::pair<System, State> make_pendulum() {
   builder.gravity = Vector3(0, 0, -9.81);
   const double across = kMass * kLength * kLength / 12;  // a thin rod along z
   const Vector3 J(across, across, 1e-3 * across);
-  const int rod = builder.add_body("rod", kMass, J.asDiagonal(), {Matrix3::Identity(), Vector3(0, 0, -kLength / 2)});
+  const int rod =
+      builder.add_body("rod", kMass, J.asDiagonal(), {Matrix3::Identity(), Vector3(0, 0, -kLength / 2)});
   builder.add_joint("pin", {}, rod, Vector3::Zero(), RevoluteJoint{Vector3::UnitY()}, kStart);
   return std::move(builder).build();
 }
@@ -39,7 +40,7 @@ int main() {
   double angle = 0;
   const TransientSummary summary = run_transient(
       system, initial, options, ws, [&](const State& state, const Work&) { angle = state.q[0]; });
-  fmt::print("{} at {} s: angle {:.12f} rad, closed solution {:.12f} rad\n", summary.message, summary.t_end, angle,
-             kAngleAfterOneSecond);
+  fmt::print("{} at {} s: angle {:.12f} rad, closed solution {:.12f} rad\n", summary.message, summary.t_end,
+             angle, kAngleAfterOneSecond);
   return std::abs(angle - kAngleAfterOneSecond) < 1e-8 ? 0 : 1;
 }

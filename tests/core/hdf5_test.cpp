@@ -62,6 +62,7 @@ TEST(Hdf5, AttributesComeBackWithTheirType) {
     group.set_attribute("text", "first line\nsecond: 5 µm");
     group.set_attribute("empty", "");
     group.set_attribute("nodes", std::vector<std::string>{"19", "20"});
+    group.set_attribute("no nodes", std::vector<std::string>{});
     group.set_attribute("number", 0.2);
     file.close();
   }
@@ -73,7 +74,8 @@ TEST(Hdf5, AttributesComeBackWithTheirType) {
   EXPECT_EQ(group.text_attribute("number"), "");
   EXPECT_EQ(group.text_attribute("absent"), "");
   EXPECT_THAT(std::get<std::vector<std::string>>(group.attribute("nodes")), ElementsAre("19", "20"));
-  EXPECT_EQ(group.attributes().size(), 4u);
+  EXPECT_TRUE(std::get<std::vector<std::string>>(group.attribute("no nodes")).empty());
+  EXPECT_EQ(group.attributes().size(), 5u);
 }
 
 TEST(Hdf5, SeriesGrowByWholeRows) {
