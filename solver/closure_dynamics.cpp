@@ -1,6 +1,8 @@
 #include "solver/closure_dynamics.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
 
 #include "core/error.h"
 #include "solver/articulated_body.h"
@@ -15,7 +17,8 @@ constexpr int kColumns = 6;  // width of a body's block in Workspace::z, at leas
 template <int rows>
 using RowBlock = Eigen::Matrix<double, rows, Eigen::Dynamic, 0, rows, kColumns>;
 
-/// A row that keeps less than this part of its length orthogonal to the rows before it is redundant.
+/// A row is redundant when what it has orthogonal to the rows before it is shorter than this part of the longest row. Rows
+/// have the length 1/sqrt(inertia that a force along them feels); should all of them be dead, the total mass is the scale.
 constexpr double kRankTolerance = 1e-7;
 
 auto wrench_block(Workspace& ws, int body, int columns) {
@@ -164,18 +167,19 @@ void solve_multipliers(const VectorX& r, Workspace& ws) {
 }
 
 std::vector<int> find_independent_rows(const System& system, Workspace& ws) {
+  if (system.n_rows == 0) return {};
   // Gram-Schmidt (twice, for safety) in the order of the scene: a row that nothing is left of is redundant. Pivoting by
   // length would find the same rank but name a different row from scene to scene.
   calc_closure_factor(system, ws);
+  const double smallest =
+      kRankTolerance * std::max(ws.U.colwise().norm().maxCoeff(), 1 / std::sqrt(system.total_mass()));
   std::vector<int> independent;
   MatrixX basis(system.nv, 0);
-  for (std::size_t i = 0; i < ws.kept.size(); ++i) {
-    VectorX u = ws.U.col(static_cast<Eigen::Index>(i));
-    const double length = u.norm();
-    if (length > 0)
-      for (int pass = 0; pass < 2; ++pass) u -= basis * (basis.transpose() * u);
-    if (!(length > 0) || u.norm() <= kRankTolerance * length) continue;
-    independent.push_back(ws.kept[i]);
+  for (int row = 0; row < system.n_rows; ++row) {
+    VectorX u = ws.U.col(row);
+    for (int pass = 0; pass < 2; ++pass) u -= basis * (basis.transpose() * u);
+    if (!(u.norm() > smallest)) continue;
+    independent.push_back(row);
     basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
     basis.rightCols<1>() = u.normalized();
   }
