@@ -1,6 +1,7 @@
 #include "solver/closure_dynamics.h"
 
 #include <Eigen/Cholesky>
+#include <cmath>
 
 #include "core/error.h"
 #include "solver/articulated_body.h"
@@ -15,7 +16,7 @@ constexpr int kColumns = 6;  // width of a body's block in Workspace::z, at leas
 template <int rows>
 using RowBlock = Eigen::Matrix<double, rows, Eigen::Dynamic, 0, rows, kColumns>;
 
-/// A row that keeps less than this part of its scale orthogonal to the rows before it is redundant.
+/// A row is redundant when what it has orthogonal to the rows before it is shorter than this part of its scale.
 constexpr double kRankTolerance = 1e-7;
 
 auto wrench_block(Workspace& ws, int body, int columns) {
@@ -99,13 +100,14 @@ void calc_weighted_factor(const System& system, double a, double b, Workspace& w
 }
 
 /// Lengths that the columns of U would have if the two sides of a closure moved independently: what rounding is to be
-/// measured by where both sides move alike and the column vanishes.
+/// measured by where both sides move alike and the column vanishes. Rows have the length 1/sqrt(inertia that a force along
+/// them feels); where neither side can move, the total mass is the scale.
 VectorX calc_row_scales(const System& system, Workspace& ws) {
   calc_weighted_factor(system, 1, 0, ws);
   const VectorX A = ws.U.colwise().squaredNorm();
   calc_weighted_factor(system, 0, 1, ws);
   const VectorX B = ws.U.colwise().squaredNorm();
-  return (A + B).cwiseSqrt();
+  return (A + B).cwiseSqrt().cwiseMax(1 / std::sqrt(system.total_mass()));
 }
 
 }  // namespace
@@ -177,17 +179,18 @@ void solve_multipliers(const VectorX& r, Workspace& ws) {
 }
 
 std::vector<int> find_independent_rows(const System& system, Workspace& ws) {
+  if (system.n_rows == 0) return {};
   // Gram-Schmidt (twice, for safety) in the order of the scene: a row that nothing is left of is redundant. Pivoting by
   // length would find the same rank but name a different row from scene to scene.
   const VectorX scales = calc_row_scales(system, ws);
   calc_closure_factor(system, ws);
   std::vector<int> independent;
   MatrixX basis(system.nv, 0);
-  for (std::size_t i = 0; i < ws.kept.size(); ++i) {
-    VectorX u = ws.U.col(static_cast<Eigen::Index>(i));
+  for (int row = 0; row < system.n_rows; ++row) {
+    VectorX u = ws.U.col(row);
     for (int pass = 0; pass < 2; ++pass) u -= basis * (basis.transpose() * u);
-    if (u.norm() <= kRankTolerance * scales[static_cast<Eigen::Index>(i)]) continue;
-    independent.push_back(ws.kept[i]);
+    if (!(u.norm() > kRankTolerance * scales[row])) continue;
+    independent.push_back(row);
     basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
     basis.rightCols<1>() = u.normalized();
   }

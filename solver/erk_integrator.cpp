@@ -2,6 +2,10 @@
 
 #include <arkode/arkode_erkstep.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "solver/assembly.h"
 #include "solver/events.h"
 #include "solver/first_order.h"
@@ -10,6 +14,14 @@
 
 namespace wishbone {
 namespace {
+
+/// Trials of a step that left the domain of an element or of a closure, each a quarter of the one before. ARKODE itself
+/// gives up at the first.
+constexpr int kMaxRetries = 20;
+
+bool shorter_step_helps(int flag) {
+  return flag == ARK_UNREC_RHSFUNC_ERR || flag == ARK_POSTPROCESS_STEP_FAIL;
+}
 
 class ErkIntegrator final : public Integrator {
  public:
@@ -26,6 +38,7 @@ class ErkIntegrator final : public Integrator {
   static int events(realtype t, N_Vector y, realtype* g, void* self);
 
   void create(const State& state, const Work& work);
+  void restart_from(double t, double first_step);
   VectorX blame() const;
 
   struct Counts {
@@ -44,6 +57,8 @@ class ErkIntegrator final : public Integrator {
   sundials::Vector y_, tolerances_, scratch_;
   std::unique_ptr<void, ArkodeDeleter> arkode_;
   double t_ = 0;
+  VectorX start_;  // y at the start of the step
+  double last_step_ = std::numeric_limits<double>::infinity();
   Counts before_;  // of the runs before the last restart
 };
 
@@ -79,7 +94,8 @@ void ErkIntegrator::create(const State& state, const Work& work) {
   equations_.pack(state, work, sundials::map(y_));
   arkode_.reset(ERKStepCreate(rate, state.t, y_.get(), context_));
   void* arkode = arkode_.get();
-  ERKStepSetErrHandlerFn(arkode, [](int, const char*, const char*, char*, void*) {}, nullptr);
+  ERKStepSetErrHandlerFn(
+      arkode, [](int, const char*, const char*, char*, void*) {}, nullptr);
   ERKStepSVtolerances(arkode, equations_.tolerance_scale() * options_.rtol, tolerances_.get());
   ERKStepSetUserData(arkode, this);
   ERKStepSetMaxNumSteps(arkode, -1);  // counted by the caller
@@ -99,12 +115,28 @@ void ErkIntegrator::restart(const State& state, const Work& work) {
   before_ = counts();
   equations_.pack(state, work, sundials::map(y_));
   ERKStepReInit(arkode_.get(), rate, state.t, y_.get());
+  ERKStepSetInitStep(arkode_.get(), 0.0);  // its own estimate
+}
+
+void ErkIntegrator::restart_from(double t, double first_step) {
+  before_ = counts();
+  t_ = t;
+  sundials::map(y_) = start_;
+  ERKStepReInit(arkode_.get(), rate, t_, y_.get());
+  ERKStepSetInitStep(arkode_.get(), first_step);
 }
 
 Integrator::Step ErkIntegrator::step(double t_stop) {
   void* arkode = arkode_.get();
   ERKStepSetStopTime(arkode, t_stop);
-  const int flag = ERKStepEvolve(arkode, t_stop, y_.get(), &t_, ARK_ONE_STEP);
+  start_ = sundials::map(y_);
+  const double t_start = t_;
+  int flag = ERKStepEvolve(arkode, t_stop, y_.get(), &t_, ARK_ONE_STEP);
+  for (int retry = 1; retry <= kMaxRetries && shorter_step_helps(flag); ++retry) {
+    restart_from(t_start, std::ldexp(std::min(last_step_, t_stop - t_start), -2 * retry));
+    flag = ERKStepEvolve(arkode, t_stop, y_.get(), &t_, ARK_ONE_STEP);
+  }
+  ERKStepGetLastStep(arkode, &last_step_);
   if (flag < 0)
     throw_integrator_failure(equations_, "ARKODE", sundials::flag_name(ERKStepGetReturnFlagName(flag)), t_,
                              blame());

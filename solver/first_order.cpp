@@ -13,6 +13,8 @@
 namespace wishbone {
 namespace {
 
+constexpr double kStandardGravity = 9.80665;  // [m/s^2]
+
 State sized_state(const System& system) {
   return {0, VectorX::Zero(system.nq), VectorX::Zero(system.nv), VectorX::Zero(system.nx)};
 }
@@ -39,6 +41,7 @@ FirstOrderSystem::FirstOrderSystem(const System& system, Workspace& ws)
     : system_(system),
       ws_(ws),
       size_(system.nq + system.nv + system.nx + 2),
+      weight_(system.total_mass() * kStandardGravity),
       state_(sized_state(system)),
       q_rate_(VectorX::Zero(system.nq)) {}
 
@@ -80,7 +83,7 @@ bool FirstOrderSystem::project(double t, double tolerance, Eigen::Ref<VectorX> y
     project_velocities(system_, state_, ws_);
   }
   pack(state_, work_, y);
-  return true;
+  return y.allFinite();  // next to a singular position the corrections may overflow
 }
 
 void FirstOrderSystem::calc_events(double t, const Eigen::Ref<const VectorX>& y, double* g) {
@@ -96,7 +99,7 @@ double FirstOrderSystem::tolerance_scale() const {
 
 void FirstOrderSystem::set_tolerances(double atol, Eigen::Ref<VectorX> tolerances) const {
   tolerances.setConstant(tolerance_scale() * atol);
-  tolerances.tail<2>().setConstant(1e20);
+  tolerances.tail<2>() *= weight_;
 }
 
 std::string FirstOrderSystem::name(Eigen::Index i) const {

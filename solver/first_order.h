@@ -37,7 +37,7 @@ class FirstOrderSystem {
   /// Factor on tolerances, 1/sqrt(size). SUNDIALS holds the root mean square of the weighted errors below one; with this
   /// factor every single coordinate meets its tolerance, and coordinates at rest do not loosen it for the others.
   double tolerance_scale() const;
-  /// Absolute tolerances, scaled: `atol`, but none on the energies, which follow and steer nothing.
+  /// Absolute tolerances, scaled: `atol`, and for the energies what the weight of the whole mechanism does along it.
   void set_tolerances(double atol, Eigen::Ref<VectorX> tolerances) const;
 
   /// Name of an entry of y for messages.
@@ -65,6 +65,7 @@ class FirstOrderSystem {
   const System& system_;
   Workspace& ws_;
   Eigen::Index size_;
+  double weight_;  // of all bodies under standard gravity [N]
   State state_;  // scratch of the callbacks
   Work work_;
   VectorX q_rate_;

@@ -16,7 +16,7 @@ void throw_integrator_failure(FirstOrderSystem& equations, const std::string& in
     }
   }
   Eigen::Index worst = 0;
-  blame.head(equations.size()).cwiseAbs().maxCoeff(&worst);
+  blame.head(equations.size() - 2).cwiseAbs().maxCoeff(&worst);
   throw NumericsError({fmt::format("t = {:.9g} s: {}", t, equations.name(worst)),
                        fmt::format("{} gave up ({}); this coordinate had the largest share in the error", integrator, flag),
                        "", "loosen analysis.rtol and analysis.atol, or look for a discontinuity or an extreme stiffness there"});

@@ -43,8 +43,9 @@ void set_own_force(const System& system, const TreeBody& body, const VectorX& v_
   // J alpha + S z'' + t_bias = N,   S^T alpha + z'' + h_bias = Q
   s.F_joint.head<3>() += s.X_WB.R * (f.modal.J * alpha_B + f.modal.S * z_dd + f.modal.t_bias);
   s.F_joint.tail<3>() += flexible.modal.mass() * linear(s.A);
-  r.segment(flexible.z_rate_start, z_dd.size()) =
-      f.modal.S.transpose() * alpha_B + z_dd + f.modal.h_bias - f.load;
+  auto r_z = r.segment(flexible.z_rate_start, z_dd.size());
+  r_z = z_dd + f.modal.h_bias - f.load;
+  r_z.noalias() += f.modal.S.transpose() * alpha_B;
 }
 
 /// r = H^T F joint by joint, tips first, the rest handed to the parent.

@@ -12,6 +12,13 @@ const char* speed_component(const TreeBody& body, int i) {
 
 }  // namespace
 
+double System::total_mass() const {
+  double mass = 0;
+  for (const TreeBody& body : bodies)
+    mass += body.flexible < 0 ? body.mass : flexible[body.flexible].modal.mass();
+  return mass;
+}
+
 std::string System::speed_name(int v_index) const {
   for (const FlexibleBody& f : flexible)
     if (v_index >= f.z_rate_start && v_index < f.z_rate_start + f.modal.mode_count())

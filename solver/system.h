@@ -79,6 +79,8 @@ struct System {
   int n_rows = 0;  ///< closure rows, redundant ones included
   int n_forces = 0;
 
+  /// Of all bodies [kg].
+  double total_mass() const;
   /// Name of a speed for messages, such as "front_left_wheel: wx" or "chassis: mode 3".
   std::string speed_name(int v_index) const;
   /// Name of a closure row, such as "rear_left_hinge_2 (x)".

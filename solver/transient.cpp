@@ -1,5 +1,7 @@
 #include "solver/transient.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "core/error.h"
@@ -9,6 +11,8 @@
 
 namespace wishbone {
 namespace {
+
+constexpr long kPatience = 10'000;  // steps between two looks at the progress
 
 /// One run: the clock of outputs, the list of stops, and the integrator between them.
 class Run {
@@ -41,6 +45,7 @@ class Run {
         ++steps_;
         emit_until(t);
         check_limits(summary.integrator, t);
+        check_progress(t);
         if (keep_going && !keep_going(t)) return interrupt(summary, t);
         if (!step.events.empty()) {
           for (const int event : step.events) handle_event(system_, event, ws_);
@@ -93,13 +98,23 @@ class Run {
 
   void check_limits(const IntegratorOptions& options, double t) const {
     if (options.max_steps <= 0 || steps_ < options.max_steps) return;
-    throw NumericsError({"t = " + std::to_string(t) + " s", "the allowed number of steps is used up",
+    throw NumericsError({fmt::format("t = {:.9g} s", t), "the allowed number of steps is used up",
                          std::to_string(steps_), "raise analysis.max_steps or loosen the tolerances"});
+  }
+
+  /// Steps that shrink for ever reach no end: a rate at which the run would take more than 1e13 steps is a failure.
+  void check_progress(double t) {
+    if (steps_ % kPatience != 0) return;
+    if (t - t_patience_ < 1e-9 * options_.duration)
+      throw NumericsError({fmt::format("t = {:.9g} s", t), "the steps have become too small to go on",
+                           fmt::format("{:g} s for the last {} steps", t - t_patience_, kPatience),
+                           "look for a singular position, a discontinuity or a shock at this time"});
+    t_patience_ = t;
   }
 
   void interrupt(TransientSummary& summary, double t) {
     summary.status = TransientSummary::Status::interrupted;
-    summary.message = "interrupted at t = " + std::to_string(t) + " s";
+    summary.message = fmt::format("interrupted at t = {:.9g} s", t);
   }
 
   const System& system_;
@@ -112,6 +127,7 @@ class Run {
   std::unique_ptr<Integrator> integrator_;
   long next_output_ = 0;
   long steps_ = 0;
+  double t_patience_ = 0;
 };
 
 }  // namespace

@@ -9,7 +9,6 @@ namespace wishbone {
 namespace {
 
 using ::testing::AllOf;
-using ::testing::AnyOf;
 using testing::build;
 using testing::Built;
 using testing::diagonal;
@@ -73,7 +72,7 @@ TEST(Failure, OfAForceThatOverflowsNamesTheElement) {
   }
 }
 
-TEST(Failure, OfALoopCarriedBeyondItsReachNamesTheClosure) {
+TEST(Failure, OfALoopCarriedBeyondItsReachComesWhereItIsStretchedOut) {
   // a motion pulls the loop's foot away until two rods of 1 m cannot span it any more
   for (const auto& [form, method] :
        {std::pair(Form::index1, Method::erk), {Form::index1, Method::bdf}, {Form::ggl, Method::bdf}}) {
@@ -92,10 +91,9 @@ TEST(Failure, OfALoopCarriedBeyondItsReachNamesTheClosure) {
     const Trajectory run = simulate(m.system, m.state, 2.0, 0.1, 1e-8, method, form);
     EXPECT_EQ(run.summary.status, TransientSummary::Status::failed)
         << to_string(form) << " " << to_string(method);
-    EXPECT_THAT(run.summary.message, AllOf(HasSubstr("t = "), AnyOf(HasSubstr("apex"), HasSubstr("foot"))))
-        << to_string(form) << " " << to_string(method);
-    EXPECT_GT(run.states.size(), 5u);
-    EXPECT_LT(run.summary.t_end, 1.2);
+    EXPECT_THAT(run.summary.message, HasSubstr("t = 0.89"));
+    EXPECT_NEAR(run.summary.t_end, 0.8925, 1e-4);  // 1.2 m + 2 m s(t/2 s) = 2 m
+    EXPECT_EQ(run.states.size(), 9u);
   }
 }
 

@@ -17,7 +17,7 @@ using testing::momentum;
 using testing::simulate;
 using testing::Trajectory;
 
-constexpr int kModes = 6;
+constexpr int kModes = 4;
 
 void expect_conserved(const Built& m, const Trajectory& run, double tolerance) {
   ASSERT_EQ(run.summary.status, TransientSummary::Status::complete) << run.summary.message;

@@ -1,6 +1,7 @@
 // The forms and methods of integration: agreement, order, closure, stops, determinism.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "solver/forward_dynamics.h"
@@ -30,6 +31,13 @@ constexpr Scheme kClosedSchemes[] = {
     {Form::index1, Method::erk}, {Form::index1, Method::bdf}, {Form::ggl, Method::bdf}};
 constexpr Scheme kOpenSchemes[] = {
     {Form::ode, Method::erk}, {Form::ode, Method::adams}, {Form::ode, Method::bdf}, {Form::ggl, Method::bdf}};
+
+/// What a method may lose against its tolerance. Tolerances bound the error of a step; over some hundred steps of a Runge-Kutta
+/// pair or Adams two to three digits go, over some thousand steps of a BDF method, whose coefficients of error are larger
+/// and whose Newton iteration ends at the tolerance, four and more.
+double loss(Method method) {
+  return method == Method::bdf ? 5e4 : 5e2;
+}
 
 double error(const State& a, const State& b) {
   return std::max((a.q - b.q).cwiseAbs().maxCoeff(), (a.v - b.v).cwiseAbs().maxCoeff());
@@ -89,12 +97,14 @@ TEST(Integration, FormsAgreeOnAClosedLoopAndKeepItClosed) {
     const Trajectory run = simulate(m.system, m.state, 2.0, 0.02, 1e-9, scheme.method, scheme.form);
     ASSERT_EQ(run.states.size(), exact.states.size()) << run.summary.message;
     Workspace ws(m.system);
+    double worst = 0;
     for (std::size_t i = 0; i < run.states.size(); ++i) {
-      EXPECT_LT(error(run.states[i], exact.states[i]), 1e-5) << name(scheme) << " t = " << run.states[i].t;
+      worst = std::max(worst, error(run.states[i], exact.states[i]));
       update_state(m.system, run.states[i], ws);
       EXPECT_LE(ws.Phi.cwiseAbs().maxCoeff(), 1e-10) << name(scheme) << " t = " << run.states[i].t;
       EXPECT_LE(ws.Phi_rate.cwiseAbs().maxCoeff(), 1e-10) << name(scheme) << " t = " << run.states[i].t;
     }
+    EXPECT_LT(worst, loss(scheme.method) * 1e-9) << name(scheme);
   }
 }
 
@@ -147,8 +157,7 @@ TEST(Integration, LosesNothingAtTheEdgesOfPrescribedMotions) {
     EXPECT_EQ(run.summary.restarts, 4) << name(scheme);
     EXPECT_NEAR(run.last().q[0], x, 1e-7) << name(scheme);
     EXPECT_NEAR(run.last().v[0], v, 1e-7) << name(scheme);
-    EXPECT_NEAR(energy_balance(m.system, run.last(), run.work.back()),
-                energy_balance(m.system, run.states.front(), run.work.front()), 1e-6)
+    EXPECT_NEAR(energy_balance(m.system, run.last(), run.work.back()), 0, loss(scheme.method) * 1e-9)
         << name(scheme);
   }
 }

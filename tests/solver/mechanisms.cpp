@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "solver/articulated_body.h"
+#include "solver/closure_dynamics.h"
 #include "solver/forward_dynamics.h"
 #include "solver/kinematics.h"
 
@@ -69,21 +71,23 @@ RandomBuilder random_bodies(Random& random) {
   return r;
 }
 
-MarkerIndex random_marker(RandomBuilder& r, Random& random) {
-  const Attachment on = r.attachments[random.index(static_cast<int>(r.attachments.size()))];
+/// On one of the `count` attachments from `first` on.
+MarkerIndex random_marker(RandomBuilder& r, Random& random, int first, int count) {
+  const Attachment on = r.attachments[first + random.index(count)];
   return on.node_id != 0 ? r.builder.add_marker(on)
                          : r.builder.add_marker(on, random.vector(2), random.rotation());
 }
 
 void add_random_forces(RandomBuilder& r, Random& random) {
+  const int all = static_cast<int>(r.attachments.size()), half = all / 2;
   for (int i = 0; i < 6; ++i) {
-    const MarkerIndex P = random_marker(r, random), Q = random_marker(r, random);
+    const MarkerIndex P = random_marker(r, random, 0, half), Q = random_marker(r, random, half, half);
     r.builder.add_force(SpringDamper("spring " + std::to_string(i), P, Q, random.uniform(0, 500),
                                      random.uniform(0, 50), random.uniform(0, 1)));
   }
   for (const LoadAxes axes : {LoadAxes::kWorld, LoadAxes::kMarker})
     r.builder.add_force(
-        AppliedLoad("load", random_marker(r, random), {random.vector(50), random.vector(50)}, axes));
+        AppliedLoad("load", random_marker(r, random, 0, all), {random.vector(50), random.vector(50)}, axes));
 }
 
 void randomize(Built& m, Random& random) {
@@ -97,6 +101,14 @@ void randomize(Built& m, Random& random) {
 Workspace assembled(Built& mechanism) {
   Workspace ws(mechanism.system);
   assemble(mechanism.system, mechanism.state, ws);
+  return ws;
+}
+
+Workspace with_independent_rows(const Built& m) {
+  Workspace ws(m.system);
+  update_state(m.system, m.state, ws);
+  factor_inertia(m.system, ws);
+  keep_rows(find_independent_rows(m.system, ws), m.system, ws);
   return ws;
 }
 

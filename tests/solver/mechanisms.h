@@ -29,6 +29,9 @@ inline Built build(SystemBuilder&& builder) {
 /// Makes the state consistent in place and returns a workspace that knows the independent rows.
 Workspace assembled(Built& mechanism);
 
+/// A workspace that knows the rows that are independent in the state as it is, closed or not.
+Workspace with_independent_rows(const Built& mechanism);
+
 struct Trajectory {
   TransientSummary summary;
   std::vector<State> states;
