@@ -26,9 +26,7 @@ struct ReportLine {
 
 const std::vector<ReportLine>& vehicle_report() {
   static const std::vector<ReportLine> lines{
-      {"Path of the chassis",
-       "/bodies/chassis/position",
-       {{"y", "Lateral position"}, {"z", "Vertical position"}}},
+      {"Path of the chassis", "/vehicle/*_position", {}},
       {"Vehicle motion", "/vehicle/*rate*", {}},
       {"Vehicle motion", "/vehicle/*slip*", {}},
       {"Vehicle motion", "/vehicle/*velocity*", {}},
