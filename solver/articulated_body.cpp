@@ -68,7 +68,7 @@ void add_to_flexible_parent(const Matrix6& P_plus, const BodyState& child, const
   const Matrix3 P_ll_P = R_WP.transpose() * P_plus.bottomRightCorner<3, 3>() * R_WP;
   f.Y.noalias() += Psi.transpose() * M_zr_block;
   f.P_Psi.noalias() = P_ll_P * Psi;
-  f.M_zz.noalias() += Psi.transpose() * f.P_Psi;
+  f.M_zz.triangularView<Eigen::Lower>() += Psi.transpose() * f.P_Psi;
 }
 
 template <int nv>

@@ -23,7 +23,7 @@ constexpr double kMaxDamping = 1e12;
 
 void update_closed_kinematics(const System& system, const State& state, Workspace& ws) {
   update_positions(system, state.t, state.q, ws);
-  update_velocities(system, state.t, state.q, state.v, ws);
+  update_velocities(system, state.t, state.v, ws);
   update_markers(system, ws);
   update_closures(system, ws);
 }

@@ -9,7 +9,7 @@ namespace wishbone {
 
 void update_state(const System& system, const State& state, Workspace& ws) {
   update_positions(system, state.t, state.q, ws);
-  update_velocities(system, state.t, state.q, state.v, ws);
+  update_velocities(system, state.t, state.v, ws);
   update_markers(system, ws);
   update_closures(system, ws);
   apply_forces(system, state.t, state.x, ws);
@@ -46,9 +46,8 @@ double calc_motion_power(const System& system, double t, const Workspace& ws) {
     joint->calc_across(t, nullptr, across);
     const Matrix3 R_WP = body.parent < 0 ? Matrix3::Identity() : ws.bodies[body.parent].X_WB.R;
     const Matrix3 R_WF = R_WP * body.X_PF.R;
-    const Vector3 p_MB = s.X_WB.R * (body.X_MB.R.transpose() * body.X_MB.p);
     const Vector3 w = R_WF * across.V_drift.head<3>();
-    const Vector3 v = R_WF * across.V_drift.tail<3>() + w.cross(p_MB);
+    const Vector3 v = R_WF * across.V_drift.tail<3>() + w.cross(s.p_MB);
     power += w.dot(angular(s.F_joint)) + v.dot(linear(s.F_joint));
   }
   return power;

@@ -1,5 +1,6 @@
 #include "solver/kinematics.h"
 
+#include <type_traits>
 #include <variant>
 
 namespace wishbone {
@@ -27,8 +28,8 @@ Vector3 node_deflection_rate(const System& system, const TreeBody& body, const M
 }
 
 template <class Joint>
-void update_position(const System& system, const TreeBody& body, const Joint& joint, double t, const double* q,
-                     BodyState& s, Workspace& ws) {
+void update_position(const System& system, const TreeBody& body, const Joint& joint, double t,
+                     const double* q, BodyState& s, Workspace& ws) {
   constexpr int nv = Joint::kNv;
   const BodyState& parent = parent_state(body, ws);
   AcrossJoint<nv> across;
@@ -41,44 +42,60 @@ void update_position(const System& system, const TreeBody& body, const Joint& jo
   s.X_WB.p = parent.X_WB.p + s.p_PB;
 
   // columns of H about Bo, world axes: (w, v_Mo + w x p_MB)
-  const Vector3 p_MB = R_WF * (across.X_FM.R * body.X_MB.p);
+  s.p_MB = R_WF * (across.X_FM.R * body.X_MB.p);
   if constexpr (nv > 0)
     for (int i = 0; i < nv; ++i) {
       const Vector6 h = across.H.col(i);
       const Vector3 w = R_WF * angular(h);
-      s.H.col(i) << w, R_WF * linear(h) + w.cross(p_MB);
+      s.H.col(i) << w, R_WF * linear(h) + w.cross(s.p_MB);
     }
 }
 
+/// Motion that a prescribed joint has of itself, world axes, at Mo.
+struct Drift {
+  Vector6 V = Vector6::Zero(), A = Vector6::Zero();
+};
+
+Drift drift(const TreeBody& body, const PrescribedJoint& joint, double t, const Matrix3& R_WP) {
+  AcrossJoint<0> across;
+  joint.calc_across(t, nullptr, across);
+  const Matrix3 R_WF = R_WP * body.X_PF.R;
+  return {spatial(R_WF * across.V_drift.head<3>(), R_WF * across.V_drift.tail<3>()),
+          spatial(R_WF * across.A_drift.head<3>(), R_WF * across.A_drift.tail<3>())};
+}
+
 template <class Joint>
-void update_velocity(const System& system, const TreeBody& body, const Joint& joint, double t, const double* q,
+void update_velocity(const System& system, const TreeBody& body, const Joint& joint, double t,
                      const double* v, BodyState& s, Workspace& ws) {
   constexpr int nv = Joint::kNv;
   const BodyState& parent = parent_state(body, ws);
-  AcrossJoint<nv> across;
-  joint.calc_across(t, q, across);
+  const Vector3 p_PM = s.p_PB - s.p_MB;
 
-  const Matrix3 R_WF = parent.X_WB.R * body.X_PF.R;
-  const Vector3 p_MB = R_WF * (across.X_FM.R * body.X_MB.p);
-  const Vector3 p_PM = s.p_PB - p_MB;
-
-  // V_FM = H v + V_drift, world axes, at Mo; the node's own velocity adds to the linear part
-  Vector6 V_FM = across.V_drift;
-  if constexpr (nv > 0) V_FM += across.H * Eigen::Map<const Eigen::Matrix<double, nv, 1>>(v);
-  const Vector3 w_rel = R_WF * V_FM.head<3>();
-  const Vector3 v_rel = R_WF * V_FM.tail<3>() + node_deflection_rate(system, body, parent.X_WB.R, ws);
+  // motion across the joint at Mo, from H v at Bo or from the prescribed motion; the node's velocity adds to the linear part
+  Vector3 w_rel = Vector3::Zero(), v_rel = node_deflection_rate(system, body, parent.X_WB.R, ws);
+  Vector3 alpha_drift = Vector3::Zero(), a_drift = Vector3::Zero();
+  if constexpr (nv > 0) {
+    const Vector6 Hv = s.H.leftCols<nv>() * Eigen::Map<const Eigen::Matrix<double, nv, 1>>(v);
+    w_rel = angular(Hv);
+    v_rel += linear(Hv) - w_rel.cross(s.p_MB);
+  } else if constexpr (std::is_same_v<Joint, PrescribedJoint>) {
+    const Drift d = drift(body, joint, t, parent.X_WB.R);
+    w_rel = angular(d.V);
+    v_rel += linear(d.V);
+    alpha_drift = angular(d.A);
+    a_drift = linear(d.A);
+  }
   const Vector3 w_P = angular(parent.V);
   const Vector3 w_B = w_P + w_rel;
-  const Vector3 v_M = Vector3(linear(parent.V)) + w_P.cross(p_PM) + v_rel;
-  s.V << w_B, v_M + w_B.cross(p_MB);
+  const Vector3 v_M = linear(parent.V) + w_P.cross(p_PM) + v_rel;
+  s.V << w_B, v_M + w_B.cross(s.p_MB);
 
   // alpha_B = alpha_P + w_P x w_rel + alpha_rel
   // a_Mo    = a_P + alpha_P x p_PM + w_P x (w_P x p_PM) + 2 w_P x v_rel + a_rel
   // a_Bo    = a_Mo + alpha_B x p_MB + w_B x (w_B x p_MB)
-  const Vector3 c_alpha = w_P.cross(w_rel) + R_WF * across.A_drift.template head<3>();
-  const Vector3 c_M = w_P.cross(w_P.cross(p_PM)) + 2.0 * w_P.cross(v_rel) +
-                      R_WF * across.A_drift.template tail<3>();
-  s.c << c_alpha, c_M + c_alpha.cross(p_MB) + w_B.cross(w_B.cross(p_MB));
+  const Vector3 c_alpha = w_P.cross(w_rel) + alpha_drift;
+  const Vector3 c_M = w_P.cross(w_P.cross(p_PM)) + 2.0 * w_P.cross(v_rel) + a_drift;
+  s.c << c_alpha, c_M + c_alpha.cross(s.p_MB) + w_B.cross(w_B.cross(s.p_MB));
 }
 
 }  // namespace
@@ -101,15 +118,13 @@ void update_positions(const System& system, double t, const VectorX& q, Workspac
   }
 }
 
-void update_velocities(const System& system, double t, const VectorX& q, const VectorX& v, Workspace& ws) {
+void update_velocities(const System& system, double t, const VectorX& v, Workspace& ws) {
   ++ws.work.velocity;
   for (std::size_t i = 0; i < system.bodies.size(); ++i) {
     const TreeBody& body = system.bodies[i];
     BodyState& s = ws.bodies[i];
     std::visit(
-        [&](const auto& joint) {
-          update_velocity(system, body, joint, t, q.data() + body.q_start, v.data() + body.v_start, s, ws);
-        },
+        [&](const auto& joint) { update_velocity(system, body, joint, t, v.data() + body.v_start, s, ws); },
         body.joint);
     if (body.flexible >= 0) {
       const FlexibleBody& flexible = system.flexible[body.flexible];
@@ -185,8 +200,8 @@ void calc_q_rate(const System& system, const VectorX& q, const VectorX& v, Eigen
 
 void retract(const System& system, const VectorX& d, Eigen::Ref<VectorX> q) {
   for (const TreeBody& body : system.bodies)
-    std::visit(
-        [&](const auto& joint) { joint.retract(d.data() + body.v_start, q.data() + body.q_start); }, body.joint);
+    std::visit([&](const auto& joint) { joint.retract(d.data() + body.v_start, q.data() + body.q_start); },
+               body.joint);
   for (const FlexibleBody& flexible : system.flexible) {
     const int m = flexible.modal.mode_count();
     q.segment(flexible.z_start, m) += d.segment(flexible.z_rate_start, m);

@@ -9,7 +9,7 @@ namespace wishbone {
 void update_positions(const System& system, double t, const VectorX& q, Workspace& ws);
 
 /// Velocities V_WB = shift(V_WP) + H v + V_drift and the velocity products c. Needs update_positions.
-void update_velocities(const System& system, double t, const VectorX& q, const VectorX& v, Workspace& ws);
+void update_velocities(const System& system, double t, const VectorX& v, Workspace& ws);
 
 /// Poses and velocities of all markers. Needs update_positions and update_velocities.
 void update_markers(const System& system, Workspace& ws);

@@ -11,6 +11,7 @@ namespace wishbone {
 struct BodyState {
   Pose X_WB;
   Vector3 p_PB = Vector3::Zero();      ///< from the parent's origin to Bo
+  Vector3 p_MB = Vector3::Zero();      ///< from the outboard joint frame's origin to Bo
   Vector6 V = Vector6::Zero();         ///< V_WB
   Vector6 c = Vector6::Zero();         ///< A_WB - shift(A_WP) - H v': velocity products and prescribed motion
   Vector6 A = Vector6::Zero();         ///< A_WB
@@ -28,7 +29,7 @@ struct BodyState {
 struct FlexibleState {
   ModalBodyState modal;
   VectorX load;    ///< modal load Q = sum Psi_i^T f_i
-  MatrixX M_zz;    ///< modal mass, identity plus what hangs on the nodes; its Cholesky factor after factoring
+  MatrixX M_zz;    ///< modal mass, identity plus what hangs on the nodes; its Cholesky factor after factoring (lower triangle)
   MatrixX Y;       ///< L_z^-1 M_zr, m x 6
   Matrix3X P_Psi;  ///< scratch: a child's P+ times the shapes of its node
   VectorX bias;    ///< z bias, then L_z^-1 of it
