@@ -111,7 +111,7 @@ TEST_F(CommandTest, ExtractMakesABaselineThatTheRunMeets) {
                            " --every 10ms --signals '/vehicle/*' '/tires/*/deflection'");
   EXPECT_EQ(made.code, 0) << made.text;
   const ResultFile file(base);
-  EXPECT_EQ(file.signals().size(), 10u);
+  EXPECT_EQ(file.signals().size(), 12u);
   EXPECT_EQ(file.time().size(), 201);
   EXPECT_EQ(file.status(), "complete");
   EXPECT_TRUE(file.run_meta().empty());

@@ -20,6 +20,8 @@ struct SyntheticRun {
 inline std::vector<Signal> synthetic_signals(bool flexible) {
   std::vector<Signal> signals{
       {"/bodies/chassis/position", {3}, "m", "world", "origin of the chassis", {}},
+      {"/vehicle/lateral_position", {}, "m", "", "y of the chassis origin", {}},
+      {"/vehicle/vertical_position", {}, "m", "", "z of the chassis origin", {}},
       {"/bodies/chassis/orientation", {4}, "1", "world", "quaternion w x y z, chassis to world", {}},
       {"/vehicle/side_slip", {}, "rad", "chassis", "side-slip angle of the chassis", {}},
       {"/vehicle/roll_rate", {}, "rad/s", "chassis", "roll rate", {}},
@@ -51,9 +53,13 @@ inline void write_synthetic_run(const std::string& path, const SyntheticRun& run
     };
     const double pulse = t > 0.3 && t < 0.57 ? std::sin(pi * (t - 0.3) / 0.27) : 0;
     const double sag = 0.012 * std::exp(-3 * t) * std::cos(2 * pi * 1.4 * t);
+    const double y = t < 0.3 ? 0 : 0.35 * (1 - std::exp(-2.2 * (t - 0.3))) + e * 0.004 * (t - 0.3);
+    const double z = 0.42 - sag - e * 0.0006 * std::cos(2 * pi * 11 * t) * std::exp(-2 * t);
     std::vector<double> row{33.333 * t,
-                            t < 0.3 ? 0 : 0.35 * (1 - std::exp(-2.2 * (t - 0.3))) + e * 0.004 * (t - 0.3),
-                            0.42 - sag - e * 0.0006 * std::cos(2 * pi * 11 * t) * std::exp(-2 * t),
+                            y,
+                            z,
+                            y,
+                            z,
                             1,
                             0,
                             0,
