@@ -62,6 +62,7 @@ void condense_modes(const FlexibleBody& flexible, BodyState& s, FlexibleState& f
 void add_to_flexible_parent(const Matrix6& P_plus, const BodyState& child, const TreeBody& body,
                             const FlexibleBody& parent_flexible, const Matrix3& R_WP, FlexibleState& f) {
   const Matrix3X& Psi = parent_flexible.modal.interface_shape(body.parent_node);  // 3 x m, parent axes
+  if (Psi.cols() == 0) return;
   Eigen::Matrix<double, 6, 3> X_P = P_plus.rightCols<3>();
   X_P.topRows<3>() += skew(child.p_PB) * P_plus.bottomRightCorner<3, 3>();
   const Eigen::Matrix<double, 3, 6> M_zr_block = R_WP.transpose() * X_P.transpose();

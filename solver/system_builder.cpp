@@ -107,7 +107,7 @@ std::vector<int> SystemBuilder::topological_order() const {
 }
 
 void SystemBuilder::add_tree_body(int entry, System& system, State& state) {
-  BodyEntry& source = bodies_[entry];
+  const BodyEntry& source = bodies_[entry];
   TreeBody body;
   body.name = source.name;
   body.mass = source.mass;
@@ -158,7 +158,7 @@ void SystemBuilder::add_tree_body(int entry, System& system, State& state) {
   system.nv += body.nv;
   if (source.flexible) {
     body.flexible = static_cast<int>(system.flexible.size());
-    FlexibleBody flexible{ModalBody(std::move(source.modes), source.interface_ids),
+    FlexibleBody flexible{ModalBody(source.modes, source.interface_ids),
                           static_cast<int>(system.bodies.size()), system.nq, system.nv, false};
     const int m = flexible.modal.mode_count();
     system.nq += m;

@@ -28,12 +28,13 @@ std::string refusal(Built& m) {
 }
 
 /// A car's link: a rigid body on two spherical joints to the ground, the second one cut, `gap` too far away along the link.
-Built link_on_two_balls(double gap) {
+Built link_on_two_balls(double gap, const Vector3& rear = Vector3::Zero()) {
   SystemBuilder b;
-  const int link = b.add_body("link", 2, diagonal(1, 1, 1), {Matrix3::Identity(), {0.3, 0.2, 0}});
-  b.add_joint("rear ball", {}, link, {0, 0, 0}, SphericalJoint{});
-  b.add_closure("front ball", b.add_marker({link}, {0.6, 0, 0}), b.add_marker({}, {0.6 + gap, 0, 0}),
-                SphericalClosure{});
+  const int link =
+      b.add_body("link", 2, diagonal(1, 1, 1), {Matrix3::Identity(), rear + Vector3(0.3, 0.2, 0)});
+  b.add_joint("rear ball", {}, link, rear, SphericalJoint{});
+  b.add_closure("front ball", b.add_marker({link}, rear + Vector3(0.6, 0, 0)),
+                b.add_marker({}, rear + Vector3(0.6 + gap, 0, 0)), SphericalClosure{});
   return build(std::move(b));
 }
 
@@ -44,6 +45,15 @@ TEST(Assembly, NamesTheRowAlongALinkBetweenTwoBallsAsRedundant) {
   ASSERT_EQ(report.redundant_rows, std::vector<int>{0});
   EXPECT_EQ(m.system.row_name(0), "front ball (x)");
   EXPECT_LE(report.position_residual, 1e-12);
+}
+
+TEST(Assembly, ClosesFarFromTheOriginAsWellAsPositionsAreKnownThere) {
+  Built m = link_on_two_balls(0, {3e6, -1e6, 7});
+  retract(m.system, VectorX::Constant(m.system.nv, 0.01), m.state.q);
+  Workspace ws(m.system);
+  const AssemblyReport report = assemble(m.system, m.state, ws);
+  EXPECT_LE(report.position_residual, 1e-8);  // a dozen roundings of 3e6 m
+  EXPECT_GE(project_positions(m.system, kProjectionTolerance, m.state, ws), 0);
 }
 
 TEST(Assembly, RefusesALinkOfTheWrongLengthWithItsGap) {
