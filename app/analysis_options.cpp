@@ -19,7 +19,9 @@ void add_analysis_options(CLI::App& command, AnalysisOptions& options) {
       ->group(group);
   command.add_option("--rtol", options.rtol, "relative tolerance")->check(CLI::PositiveNumber)->group(group);
   command.add_option("--atol", options.atol, "absolute tolerance")->check(CLI::PositiveNumber)->group(group);
-  command.add_option("--until", options.until, "end of the run [s]")->check(CLI::PositiveNumber)->group(group);
+  command.add_option("--until", options.until, "end of the run [s]")
+      ->check(CLI::PositiveNumber)
+      ->group(group);
 }
 
 void apply(const AnalysisOptions& options, TransientOptions& transient) {

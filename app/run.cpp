@@ -23,7 +23,9 @@ struct Options {
 };
 
 volatile std::sig_atomic_t interrupted = 0;
-extern "C" void on_interrupt(int) { interrupted = 1; }
+extern "C" void on_interrupt(int) {
+  interrupted = 1;
+}
 
 /// A line that overwrites itself on a terminal, a line a second of nothing elsewhere.
 class Progress {
@@ -47,20 +49,24 @@ class Progress {
 
 const char* status_text(TransientSummary::Status status) {
   switch (status) {
-    case TransientSummary::Status::complete: return "complete";
-    case TransientSummary::Status::interrupted: return "interrupted";
-    case TransientSummary::Status::failed: break;
+    case TransientSummary::Status::complete:
+      return "complete";
+    case TransientSummary::Status::interrupted:
+      return "interrupted";
+    case TransientSummary::Status::failed:
+      break;
   }
   return "failed";
 }
 
 void print_lines(const Options& options, const RunResult& result) {
   const TransientSummary& s = result.summary;
-  fmt::print("{}: {} to t = {:.6g} s, form {}, integrator {}\n", options.scene, status_text(s.status), s.t_end,
-             to_string(s.integrator.form), to_string(s.integrator.method));
+  fmt::print("{}: {} to t = {:.6g} s, form {}, integrator {}\n", options.scene, status_text(s.status),
+             s.t_end, to_string(s.integrator.form), to_string(s.integrator.method));
   for (const auto& [name, value] : s.statistics) fmt::print("  {}: {}\n", name, value);
   if (s.restarts > 0) fmt::print("  restarts at events: {}\n", s.restarts);
-  for (const std::string& row : result.redundant_rows) fmt::print("  redundant closure row left out: {}\n", row);
+  for (const std::string& row : result.redundant_rows)
+    fmt::print("  redundant closure row left out: {}\n", row);
   fmt::print("  CPU {:.3f} s ({:.4f} s per simulated second), results in {}\n", result.cpu_seconds,
              result.cpu_seconds / std::max(s.t_end, 1e-300), options.output);
 }
@@ -110,12 +116,15 @@ void add_run(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command = app.add_subcommand("run", "Run a scene and write its results");
   command->add_option("SCENE", options->scene, "scene file (YAML)")->required();
   command->add_option("-o,--output", options->output, "results file (HDF5)")->required();
-  command->add_option("--set", options->set, "NAME=VALUE: another value for a parameter of the scene; may be repeated")
+  command
+      ->add_option("--set", options->set,
+                   "NAME=VALUE: another value for a parameter of the scene; may be repeated")
       ->type_name("NAME=VALUE")
       ->take_all();
   add_analysis_options(*command, options->analysis);
   command->add_flag("--json", options->json, "print JSON");
-  command->footer("Example:\n  wishbone run models/scenes/impulse_steer.yaml -o rigid.h5 --set chassis=rigid");
+  command->footer(
+      "Example:\n  wishbone run models/scenes/impulse_steer.yaml -o rigid.h5 --set chassis=rigid");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

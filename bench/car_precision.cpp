@@ -51,17 +51,15 @@ Run run(const CompiledScene& compiled, const Variant& variant) {
   Workspace ws(compiled.system);
   std::vector<std::pair<State, Work>> states;
   const std::clock_t start = std::clock();
-  result.summary = run_transient(compiled.system, compiled.initial, options, ws, [&](const State& s, const Work& w) {
-    states.emplace_back(s, w);
-  });
+  result.summary = run_transient(compiled.system, compiled.initial, options, ws,
+                                 [&](const State& s, const Work& w) { states.emplace_back(s, w); });
   result.cpu_seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   for (const auto& [name, value] : result.summary.statistics)
     if (name.ends_with("_evaluations") && !name.starts_with("jacobian")) result.evaluations += value;
 
   // the signals are taken from the states afterwards, so that the table times the integration alone
   Observer observer(compiled.system, compiled.observer);
-  for (const auto& [state, work] : states)
-    result.rows.push_back(vehicle_signals(state, work, observer, ws));
+  for (const auto& [state, work] : states) result.rows.push_back(vehicle_signals(state, work, observer, ws));
   return result;
 }
 
@@ -74,7 +72,8 @@ double error(const Run& a, const Run& reference) {
   }
   double largest = 0;
   for (Eigen::Index i = 0; i < scale.size(); ++i)
-    if (scale[i] > 1e-6) largest = std::max(largest, worst[i] / scale[i]);  // what stays zero by symmetry has no digits
+    if (scale[i] > 1e-6)
+      largest = std::max(largest, worst[i] / scale[i]);  // what stays zero by symmetry has no digits
   return largest;
 }
 
@@ -84,7 +83,9 @@ void print_case(const std::string& scene_name, const std::string& chassis) {
   const double duration = compiled.transient.duration;
   const Run reference = run(compiled, {Form::index1, Method::erk, 1e-11});
   fmt::print("\n{}, {} chassis\n\n", scene_name, chassis);
-  fmt::print("| form | integrator | rtol | error | evaluations | CPU s per simulated s |\n|---|---|---|---|---|---|\n");
+  fmt::print(
+      "| form | integrator | rtol | error | evaluations | CPU s per simulated s "
+      "|\n|---|---|---|---|---|---|\n");
   std::vector<Variant> variants;
   for (const double rtol : {1e-3, 1e-4, 1e-5, 5e-6, 1e-6, 1e-7, 1e-8})
     variants.push_back({Form::index1, Method::erk, rtol});
@@ -93,8 +94,8 @@ void print_case(const std::string& scene_name, const std::string& chassis) {
   for (const Variant& v : variants) {
     const Run r = run(compiled, v);
     const bool complete = r.summary.status == TransientSummary::Status::complete;
-    fmt::print("| {} | {} | {:.0e} | {} | {:.0f} | {:.4f} |\n", to_string(v.form), to_string(v.method), v.rtol,
-               complete ? fmt::format("{:.1e}", error(r, reference)) : "failed", r.evaluations,
+    fmt::print("| {} | {} | {:.0e} | {} | {:.0f} | {:.4f} |\n", to_string(v.form), to_string(v.method),
+               v.rtol, complete ? fmt::format("{:.1e}", error(r, reference)) : "failed", r.evaluations,
                r.cpu_seconds / duration);
   }
 }

@@ -48,8 +48,9 @@ double chain(int n) {
 }
 
 double car(const char* chassis, const char* suspension) {
-  const CompiledScene compiled = compile(load_scene(std::string(WISHBONE_SCENES) + "/impulse_steer.yaml",
-                                                    {std::string("chassis=") + chassis, std::string("suspension=") + suspension}));
+  const CompiledScene compiled =
+      compile(load_scene(std::string(WISHBONE_SCENES) + "/impulse_steer.yaml",
+                         {std::string("chassis=") + chassis, std::string("suspension=") + suspension}));
   return nanoseconds(compiled.system, compiled.initial);
 }
 

@@ -12,6 +12,7 @@ std::string Diagnostic::text() const {
   return s;
 }
 
-Error::Error(Diagnostic diagnostic) : std::runtime_error(diagnostic.text()), diagnostic_(std::move(diagnostic)) {}
+Error::Error(Diagnostic diagnostic)
+    : std::runtime_error(diagnostic.text()), diagnostic_(std::move(diagnostic)) {}
 
 }  // namespace wishbone

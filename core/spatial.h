@@ -38,10 +38,18 @@ inline Matrix3 skew(const Vector3& a) {
   return S;
 }
 
-inline auto angular(Vector6& V) { return V.head<3>(); }
-inline auto angular(const Vector6& V) { return V.head<3>(); }
-inline auto linear(Vector6& V) { return V.tail<3>(); }
-inline auto linear(const Vector6& V) { return V.tail<3>(); }
+inline auto angular(Vector6& V) {
+  return V.head<3>();
+}
+inline auto angular(const Vector6& V) {
+  return V.head<3>();
+}
+inline auto linear(Vector6& V) {
+  return V.tail<3>();
+}
+inline auto linear(const Vector6& V) {
+  return V.tail<3>();
+}
 
 inline Vector6 spatial(const Vector3& angular_part, const Vector3& linear_part) {
   Vector6 V;

@@ -2,8 +2,11 @@
 
 namespace wishbone {
 
-extern const char* const kVersion;      ///< of the project, "0.1.0"
-extern const char* const kGitRevision;  ///< of the sources when the build was configured; "unknown" outside a checkout
-extern const char* const kCompiler;     ///< name, version and build type
+/// Of the project, such as "0.1.0".
+extern const char* const kVersion;
+/// Of the sources when the build was configured; "unknown" outside a checkout.
+extern const char* const kGitRevision;
+/// Name, version and build type.
+extern const char* const kCompiler;
 
 }  // namespace wishbone

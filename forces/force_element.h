@@ -8,17 +8,17 @@ namespace wishbone {
 
 /// What every force element is given in one evaluation.
 struct ForceInput {
-  double time = 0;                        ///< [s]
-  std::span<const MarkerState> markers;   ///< by MarkerIndex
-  std::span<const double> states;         ///< states of the element's own (tire lag, ...); empty when it has none
-  int segment = 0;                        ///< the element's discrete state (road segment of a tire, ...), changed only by events
+  double time = 0;                       ///< [s]
+  std::span<const MarkerState> markers;  ///< by MarkerIndex
+  std::span<const double> states;  ///< states of the element's own (tire lag, ...); empty when it has none
+  int segment = 0;  ///< the element's discrete state (road segment of a tire, ...), changed only by events
 };
 
 /// Where every force element adds its result.
 struct ForceOutput {
-  std::span<Wrench> wrenches;          ///< by MarkerIndex; add to them
-  std::span<double> state_rates;       ///< of the element's own states; set them
-  double power = 0;                    ///< set: power that the element delivers to the bodies, sum f.v + t.w [W]
+  std::span<Wrench> wrenches;     ///< by MarkerIndex; add to them
+  std::span<double> state_rates;  ///< of the element's own states; set them
+  double power = 0;               ///< set: power that the element delivers to the bodies, sum f.v + t.w [W]
 };
 
 /// The contract of a force element (a concept, not a base class: the evaluation calls concrete types, without

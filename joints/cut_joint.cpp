@@ -24,8 +24,8 @@ void SphericalClosure::acceleration(const MarkerState& A, const MarkerState& B, 
   // Phi'' = R_AW (d'' - alpha_A x d - 2 w_A x d' + w_A x (w_A x d))
   const Vector3 d = B.p_WM - A.p_WM;
   const Vector3 d_rate = B.v_WM - A.v_WM;
-  Phi_dd = A.R_WM.transpose() * (a_B.a - a_A.a - a_A.alpha.cross(d) - 2.0 * A.w_WM.cross(d_rate) +
-                                 A.w_WM.cross(A.w_WM.cross(d)));
+  Phi_dd = A.R_WM.transpose() *
+           (a_B.a - a_A.a - a_A.alpha.cross(d) - 2.0 * A.w_WM.cross(d_rate) + A.w_WM.cross(A.w_WM.cross(d)));
 }
 
 void RevoluteClosure::residual(const MarkerState& A, const MarkerState& B,
@@ -35,8 +35,7 @@ void RevoluteClosure::residual(const MarkerState& A, const MarkerState& B,
   Phi[4] = A.R_WM.col(2).dot(B.R_WM.col(1));
 }
 
-void RevoluteClosure::wrenches(const MarkerState& A, const MarkerState& B,
-                               Eigen::Ref<ClosureWrenches<5>> W_A,
+void RevoluteClosure::wrenches(const MarkerState& A, const MarkerState& B, Eigen::Ref<ClosureWrenches<5>> W_A,
                                Eigen::Ref<ClosureWrenches<5>> W_B) const {
   SphericalClosure{}.wrenches(A, B, W_A.leftCols<3>(), W_B.leftCols<3>());
   // d/dt (z_A . x_B) = (w_A - w_B) . (z_A x x_B)
@@ -48,8 +47,7 @@ void RevoluteClosure::wrenches(const MarkerState& A, const MarkerState& B,
 }
 
 void RevoluteClosure::acceleration(const MarkerState& A, const MarkerState& B, const MarkerAcceleration& a_A,
-                                   const MarkerAcceleration& a_B,
-                                   Eigen::Ref<ClosureVector<5>> Phi_dd) const {
+                                   const MarkerAcceleration& a_B, Eigen::Ref<ClosureVector<5>> Phi_dd) const {
   SphericalClosure{}.acceleration(A, B, a_A, a_B, Phi_dd.head<3>());
   // (z_A . x_B)'' = z_A'' . x_B + 2 z_A' . x_B' + z_A . x_B'',  e'' = alpha x e + w x (w x e)
   const Vector3 z = A.R_WM.col(2);

@@ -20,10 +20,9 @@ struct SphericalJoint {
   }
   /// q o exp(d/2), which also restores unit length.
   void retract(const double* d, double* q) const {
-    const Quaternion moved = Quaternion(q[0], q[1], q[2], q[3]) *
-                             quaternion_from_rotation_vector(Eigen::Map<const Vector3>(d));
-    Eigen::Map<Eigen::Vector4d>{q} =
-        Eigen::Vector4d(moved.w(), moved.x(), moved.y(), moved.z()).normalized();
+    const Quaternion moved =
+        Quaternion(q[0], q[1], q[2], q[3]) * quaternion_from_rotation_vector(Eigen::Map<const Vector3>(d));
+    Eigen::Map<Eigen::Vector4d>{q} = Eigen::Vector4d(moved.w(), moved.x(), moved.y(), moved.z()).normalized();
   }
   void set_neutral(double* q) const { Eigen::Map<Eigen::Vector4d>{q} = Eigen::Vector4d(1, 0, 0, 0); }
 };

@@ -12,7 +12,8 @@ namespace {
 /// The modes of a body that the scene describes as a block of hexahedra.
 ModeSet block_modes(const Scene::Flexible& flexible) {
   const HexahedralMesh mesh = make_block(flexible.size, flexible.elements);
-  ModeSet modes = free_free_modes(mesh, {flexible.young, flexible.poisson, flexible.density}).lowest(flexible.modes);
+  ModeSet modes =
+      free_free_modes(mesh, {flexible.young, flexible.poisson, flexible.density}).lowest(flexible.modes);
   modes.damping_ratio = Eigen::Map<const VectorX>(flexible.damping.data(), modes.mode_count());
   return modes;
 }
@@ -69,11 +70,15 @@ class Compiler {
 
   TreeJoint tree_joint(const Scene::Joint& joint) const {
     switch (joint.type) {
-      case Scene::JointType::kFixed: return FixedJoint{};
-      case Scene::JointType::kSpherical: return SphericalJoint{};
-      case Scene::JointType::kFree: return FreeJoint{};
+      case Scene::JointType::kFixed:
+        return FixedJoint{};
+      case Scene::JointType::kSpherical:
+        return SphericalJoint{};
+      case Scene::JointType::kFree:
+        return FreeJoint{};
       case Scene::JointType::kRevolute:
-      case Scene::JointType::kPrismatic: break;
+      case Scene::JointType::kPrismatic:
+        break;
     }
     const Vector3 axis = axis_in(joint.child.body, joint.axis_D);
     const bool turns = joint.type == Scene::JointType::kRevolute;
@@ -89,9 +94,9 @@ class Compiler {
     for (const Scene::MotionStep& s : motion.steps) steps.push_back({s.time, s.duration, s.change});
     std::optional<Ackermann> ackermann;
     if (motion.ackermann)
-      ackermann = Ackermann{motion.ackermann->wheelbase, motion.ackermann->track,
-                            motion.ackermann->side == Scene::Side::kLeft ? Ackermann::Side::kLeft
-                                                                         : Ackermann::Side::kRight};
+      ackermann = Ackermann{
+          motion.ackermann->wheelbase, motion.ackermann->track,
+          motion.ackermann->side == Scene::Side::kLeft ? Ackermann::Side::kLeft : Ackermann::Side::kRight};
     return {"motion '" + motion.name + "'", motion.start, std::move(steps), ackermann};
   }
 
@@ -101,7 +106,8 @@ class Compiler {
   }
 
   void add_closure(const Scene::Joint& joint) {
-    Matrix3 R_DM = joint.parent.body == Scene::kGround ? Matrix3::Identity() : scene_.bodies[joint.parent.body].X_DB.R;
+    Matrix3 R_DM =
+        joint.parent.body == Scene::kGround ? Matrix3::Identity() : scene_.bodies[joint.parent.body].X_DB.R;
     CutJoint cut = SphericalClosure{};
     if (joint.type == Scene::JointType::kRevolute) {
       const auto [x, y] = perpendiculars(joint.axis_D);
@@ -136,7 +142,8 @@ class Compiler {
     parameters.relaxation_y = model.relaxation_lateral;
     builder_.add_force(Tire(tire.name, builder_.add_marker({tire.wheel}), parameters,
                             Road(scene_.road->bank, std::move(depressions)),
-                            model.form == Scene::TireForm::kSmooth ? UaForm::kSmooth : UaForm::kClassic, model.lag));
+                            model.form == Scene::TireForm::kSmooth ? UaForm::kSmooth : UaForm::kClassic,
+                            model.lag));
   }
 
   ObserverOptions observer() const {
@@ -157,16 +164,32 @@ class Compiler {
     options.duration = analysis.duration;
     options.interval = scene_.output.interval;
     switch (analysis.form) {
-      case Scene::Form::kAuto: options.integrator.form = Form::automatic; break;
-      case Scene::Form::kOde: options.integrator.form = Form::ode; break;
-      case Scene::Form::kIndex1: options.integrator.form = Form::index1; break;
-      case Scene::Form::kGgl: options.integrator.form = Form::ggl; break;
+      case Scene::Form::kAuto:
+        options.integrator.form = Form::automatic;
+        break;
+      case Scene::Form::kOde:
+        options.integrator.form = Form::ode;
+        break;
+      case Scene::Form::kIndex1:
+        options.integrator.form = Form::index1;
+        break;
+      case Scene::Form::kGgl:
+        options.integrator.form = Form::ggl;
+        break;
     }
     switch (analysis.integrator) {
-      case Scene::Integrator::kAuto: options.integrator.method = Method::automatic; break;
-      case Scene::Integrator::kAdams: options.integrator.method = Method::adams; break;
-      case Scene::Integrator::kBdf: options.integrator.method = Method::bdf; break;
-      case Scene::Integrator::kErk: options.integrator.method = Method::erk; break;
+      case Scene::Integrator::kAuto:
+        options.integrator.method = Method::automatic;
+        break;
+      case Scene::Integrator::kAdams:
+        options.integrator.method = Method::adams;
+        break;
+      case Scene::Integrator::kBdf:
+        options.integrator.method = Method::bdf;
+        break;
+      case Scene::Integrator::kErk:
+        options.integrator.method = Method::erk;
+        break;
     }
     options.integrator.rtol = analysis.rtol;
     options.integrator.atol = analysis.atol;
@@ -181,6 +204,8 @@ class Compiler {
 
 }  // namespace
 
-CompiledScene compile(const Scene& scene) { return Compiler(scene).compile(); }
+CompiledScene compile(const Scene& scene) {
+  return Compiler(scene).compile();
+}
 
 }  // namespace wishbone

@@ -19,8 +19,9 @@ struct JointName {
 
 std::string tree_line(const System& system, const TreeBody& body) {
   const std::string parent = body.parent < 0 ? "ground" : system.bodies[body.parent].name;
-  std::string line = fmt::format("{}: {} on {}{}, {} freedom{}", body.name, std::visit(JointName{}, body.joint), parent,
-                                 body.parent_node >= 0 ? " (a node)" : "", body.nv, body.nv == 1 ? "" : "s");
+  std::string line =
+      fmt::format("{}: {} on {}{}, {} freedom{}", body.name, std::visit(JointName{}, body.joint), parent,
+                  body.parent_node >= 0 ? " (a node)" : "", body.nv, body.nv == 1 ? "" : "s");
   if (body.flexible >= 0)
     line += fmt::format(", {} elastic modes", system.flexible[body.flexible].modal.mode_count());
   return line;
@@ -35,7 +36,8 @@ void list_parts(const System& system, Plan& plan) {
   sort_into(plan.elastic_coordinates > 0, fmt::format("elastic terms of {} modes", plan.elastic_coordinates),
             "elastic terms: no flexible body", plan);
   bool damped = false;
-  for (const FlexibleBody& body : system.flexible) damped = damped || body.modal.modes().damping_ratio.maxCoeff() > 0;
+  for (const FlexibleBody& body : system.flexible)
+    damped = damped || body.modal.modes().damping_ratio.maxCoeff() > 0;
   if (plan.elastic_coordinates > 0)
     sort_into(damped, "structural damping", "structural damping: every damping ratio is zero", plan);
   sort_into(plan.closures > 0, fmt::format("closure solver for {} rows", plan.closure_rows),
@@ -45,7 +47,8 @@ void list_parts(const System& system, Plan& plan) {
   sort_into(!springs.empty(), fmt::format("{} spring-dampers", springs.size()), "springs: none", plan);
   sort_into(!tires.empty(), fmt::format("{} tires", tires.size()), "tires and road: no tire", plan);
   if (!tires.empty()) {
-    sort_into(system.nx > 0, fmt::format("{} states of tire lag", system.nx), "tire lag: not asked for", plan);
+    sort_into(system.nx > 0, fmt::format("{} states of tire lag", system.nx), "tire lag: not asked for",
+              plan);
     sort_into(event_count(system) > 0, "events at road edges", "events: the road has no edge", plan);
   }
   sort_into(!loads.empty(), fmt::format("{} loads", loads.size()), "loads: none", plan);

@@ -16,7 +16,8 @@ std::string host_name() {
   return name;
 }
 
-void record_facts(const Scene& scene, const RunRequest& request, const RunResult& result, Recorder& recorder) {
+void record_facts(const Scene& scene, const RunRequest& request, const RunResult& result,
+                  Recorder& recorder) {
   recorder.set_meta("title", scene.title);
   recorder.set_meta("scene", scene.text);
   recorder.set_meta("overrides", request.overrides);
@@ -48,9 +49,12 @@ void record_facts(const Scene& scene, const RunRequest& request, const RunResult
 
 Outcome outcome(TransientSummary::Status status) {
   switch (status) {
-    case TransientSummary::Status::complete: return Outcome::kComplete;
-    case TransientSummary::Status::interrupted: return Outcome::kInterrupted;
-    case TransientSummary::Status::failed: break;
+    case TransientSummary::Status::complete:
+      return Outcome::kComplete;
+    case TransientSummary::Status::interrupted:
+      return Outcome::kInterrupted;
+    case TransientSummary::Status::failed:
+      break;
   }
   return Outcome::kFailed;
 }
@@ -67,7 +71,9 @@ RunResult run_scene(const Scene& scene, const CompiledScene& compiled, const Run
 
   result.summary = run_transient(
       compiled.system, compiled.initial, compiled.transient, ws,
-      [&](const State& state, const Work& work) { recorder.append(state.t, observer.sample(state, work, ws)); },
+      [&](const State& state, const Work& work) {
+        recorder.append(state.t, observer.sample(state, work, ws));
+      },
       request.keep_going);
 
   result.work = ws.work;

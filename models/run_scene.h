@@ -12,8 +12,8 @@ namespace wishbone {
 struct RunRequest {
   std::string scene_path;
   std::string output_path;
-  std::vector<std::string> overrides;        ///< "name=value" for the scene's parameters, kept with the results
-  std::function<bool(double)> keep_going;    ///< asked with the time after every step; false interrupts the run
+  std::vector<std::string> overrides;      ///< "name=value" for the scene's parameters, kept with the results
+  std::function<bool(double)> keep_going;  ///< asked with the time after every step; false interrupts the run
 };
 
 /// What the run came to, for the terminal and for machines.

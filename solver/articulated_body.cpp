@@ -12,13 +12,20 @@ namespace {
 template <class F>
 void with_joint_size(int nv, F&& f) {
   switch (nv) {
-    case 0: return f(std::integral_constant<int, 0>{});
-    case 1: return f(std::integral_constant<int, 1>{});
-    case 2: return f(std::integral_constant<int, 2>{});
-    case 3: return f(std::integral_constant<int, 3>{});
-    case 4: return f(std::integral_constant<int, 4>{});
-    case 5: return f(std::integral_constant<int, 5>{});
-    default: return f(std::integral_constant<int, 6>{});
+    case 0:
+      return f(std::integral_constant<int, 0>{});
+    case 1:
+      return f(std::integral_constant<int, 1>{});
+    case 2:
+      return f(std::integral_constant<int, 2>{});
+    case 3:
+      return f(std::integral_constant<int, 3>{});
+    case 4:
+      return f(std::integral_constant<int, 4>{});
+    case 5:
+      return f(std::integral_constant<int, 5>{});
+    default:
+      return f(std::integral_constant<int, 6>{});
   }
 }
 
@@ -123,14 +130,14 @@ void accelerate(BodyState& s, bool with_velocity_products, const Vector6& A_in, 
     if constexpr (nv == 1)
       vd[0] /= s.L(0, 0);
     else
-      s.L.template topLeftCorner<nv, nv>().template triangularView<Eigen::Lower>().transpose().solveInPlace(vd);
+      s.L.template topLeftCorner<nv, nv>().template triangularView<Eigen::Lower>().transpose().solveInPlace(
+          vd);
     Eigen::Map<Eigen::Matrix<double, nv, 1>>{v_rate} = vd;
     s.A.noalias() += s.H.template leftCols<nv>() * vd;
   }
 }
 
-void set_own_bias(const TreeBody& body, bool with_velocity_products, BodyState& s,
-                  Workspace& ws) {
+void set_own_bias(const TreeBody& body, bool with_velocity_products, BodyState& s, Workspace& ws) {
   s.Z = -s.F_applied;
   if (body.flexible >= 0) {
     FlexibleState& f = ws.flexible[body.flexible];
@@ -211,8 +218,7 @@ void solve_accelerations(const System& system, Terms terms, Workspace& ws, Vecto
       A_in = shift_velocity(parent.A, s.p_PB);
       if (body.parent_node >= 0) {
         const int k = system.bodies[body.parent].flexible;
-        const Vector3 a_P =
-            system.flexible[k].modal.interface_shape(body.parent_node) * ws.flexible[k].z_dd;
+        const Vector3 a_P = system.flexible[k].modal.interface_shape(body.parent_node) * ws.flexible[k].z_dd;
         linear(A_in) += parent.X_WB.R * a_P;
       }
     }
@@ -224,8 +230,7 @@ void solve_accelerations(const System& system, Terms terms, Workspace& ws, Vecto
       FlexibleState& f = ws.flexible[body.flexible];
       f.z_dd = -f.bias;
       f.z_dd.noalias() -= f.Y * s.A;
-      if (flexible.carries_joints)
-        f.M_zz.triangularView<Eigen::Lower>().transpose().solveInPlace(f.z_dd);
+      if (flexible.carries_joints) f.M_zz.triangularView<Eigen::Lower>().transpose().solveInPlace(f.z_dd);
       v_rate.segment(flexible.z_rate_start, f.z_dd.size()) = f.z_dd;
     }
   }

@@ -153,7 +153,9 @@ void update_closure_accelerations(const System& system, Workspace& ws) {
         closure.joint);
 }
 
-void calc_closure_factor(const System& system, Workspace& ws) { calc_weighted_factor(system, 1, 1, ws); }
+void calc_closure_factor(const System& system, Workspace& ws) {
+  calc_weighted_factor(system, 1, 1, ws);
+}
 
 void factor_closures(const System& system, Workspace& ws) {
   ++ws.work.closure_factorizations;

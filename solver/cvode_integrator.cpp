@@ -92,7 +92,8 @@ void CvodeIntegrator::create(const State& state, const Work& work) {
   cvode_.reset(CVodeCreate(adams ? CV_ADAMS : CV_BDF, context_));
   void* cvode = cvode_.get();
   equations_.pack(state, work, sundials::map(y_));
-  CVodeSetErrHandlerFn(cvode, [](int, const char*, const char*, char*, void*) {}, nullptr);  // flags tell the story
+  CVodeSetErrHandlerFn(
+      cvode, [](int, const char*, const char*, char*, void*) {}, nullptr);  // flags tell the story
   CVodeInit(cvode, rate, state.t, y_.get());
   CVodeSVtolerances(cvode, equations_.tolerance_scale() * options_.rtol, tolerances_.get());
   CVodeSetUserData(cvode, this);
@@ -130,7 +131,8 @@ Integrator::Step CvodeIntegrator::step(double t_stop) {
   CVodeSetStopTime(cvode, t_stop);
   const int flag = CVode(cvode, t_stop, y_.get(), &t_, CV_ONE_STEP);
   if (flag < 0) {
-    throw_integrator_failure(equations_, "CVODE", sundials::flag_name(CVodeGetReturnFlagName(flag)), t_, blame());
+    throw_integrator_failure(equations_, "CVODE", sundials::flag_name(CVodeGetReturnFlagName(flag)), t_,
+                             blame());
   }
   equations_.take_failure();  // a trial state that was retried with a smaller step
   Step result{t_, {}};

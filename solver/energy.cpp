@@ -26,7 +26,8 @@ Energy calc_energy(const System& system, const State& state, const Workspace& ws
   }
   int x_start = 0;
   for_each_force(system, [&](const auto& element, int index) {
-    energy.springs += element.energy(force_input(state.t, state.x, x_start, element.state_count(), index, ws));
+    energy.springs +=
+        element.energy(force_input(state.t, state.x, x_start, element.state_count(), index, ws));
     x_start += element.state_count();
   });
   return energy;

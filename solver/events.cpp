@@ -17,7 +17,9 @@ void for_each_segmented_tire(const System& system, F&& f) {
   });
 }
 
-double distance(double value) { return std::isfinite(value) ? value : 1.0; }
+double distance(double value) {
+  return std::isfinite(value) ? value : 1.0;
+}
 
 }  // namespace
 

@@ -12,7 +12,8 @@ namespace wishbone {
 
 /// Checks the accelerations (or residuals) of an evaluation, one for each speed.
 /// @throws NumericsError naming the first force element that is not finite, else the first speed that is not
-void require_finite(const System& system, double t, const Eigen::Ref<const VectorX>& rates, const Workspace& ws);
+void require_finite(const System& system, double t, const Eigen::Ref<const VectorX>& rates,
+                    const Workspace& ws);
 
 /// The equations of motion as y' = f(t, y) with y = (q, v, x, work), x the states of the force elements and work the two
 /// energies that have crossed the boundary. Also the guard between C++ exceptions and a C integrator.
@@ -66,7 +67,7 @@ class FirstOrderSystem {
   Workspace& ws_;
   Eigen::Index size_;
   double weight_;  // of all bodies under standard gravity [N]
-  State state_;  // scratch of the callbacks
+  State state_;    // scratch of the callbacks
   Work work_;
   VectorX q_rate_;
   std::exception_ptr failure_;

@@ -139,7 +139,8 @@ int IdaIntegrator::events(realtype t, N_Vector y, N_Vector /*y_rate*/, realtype*
 void IdaIntegrator::create() {
   ida_.reset(IDACreate(context_));
   void* ida = ida_.get();
-  IDASetErrHandlerFn(ida, [](int, const char*, const char*, char*, void*) {}, nullptr);
+  IDASetErrHandlerFn(
+      ida, [](int, const char*, const char*, char*, void*) {}, nullptr);
   IDAInit(ida, residual, t_, y_.get(), y_rate_.get());
   IDASVtolerances(ida, equations_.tolerance_scale() * options_.rtol, tolerances_.get());
   IDASetUserData(ida, this);

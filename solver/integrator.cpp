@@ -9,20 +9,28 @@ namespace wishbone {
 
 const char* to_string(Form form) {
   switch (form) {
-    case Form::automatic: return "auto";
-    case Form::ode: return "ode";
-    case Form::index1: return "index1";
-    case Form::ggl: return "ggl";
+    case Form::automatic:
+      return "auto";
+    case Form::ode:
+      return "ode";
+    case Form::index1:
+      return "index1";
+    case Form::ggl:
+      return "ggl";
   }
   return "";
 }
 
 const char* to_string(Method method) {
   switch (method) {
-    case Method::automatic: return "auto";
-    case Method::adams: return "adams";
-    case Method::bdf: return "bdf";
-    case Method::erk: return "erk";
+    case Method::automatic:
+      return "auto";
+    case Method::adams:
+      return "adams";
+    case Method::bdf:
+      return "bdf";
+    case Method::erk:
+      return "erk";
   }
   return "";
 }
@@ -32,19 +40,21 @@ IntegratorOptions resolve(const IntegratorOptions& options, const System& system
   const bool closed = system.n_rows > 0;
   if (r.form == Form::automatic) r.form = closed ? Form::index1 : Form::ode;
   if (r.form == Form::ode && closed)
-    throw InputError({"analysis.form", "form ode integrates a mechanism without closures, but this one has cut joints",
+    throw InputError({"analysis.form",
+                      "form ode integrates a mechanism without closures, but this one has cut joints",
                       std::to_string(system.n_rows) + " closure rows", "use form index1 or ggl"});
   if (r.method == Method::automatic) r.method = r.form == Form::ggl ? Method::bdf : Method::erk;
   if (r.form == Form::ggl && r.method != Method::bdf)
-    throw InputError({"analysis.integrator", "form ggl is integrated by IDA, a bdf method", to_string(r.method),
-                      "use integrator bdf or auto with it"});
+    throw InputError({"analysis.integrator", "form ggl is integrated by IDA, a bdf method",
+                      to_string(r.method), "use integrator bdf or auto with it"});
   if (r.form == Form::index1 && r.method == Method::adams)
-    throw InputError({"analysis.integrator", "form index1 needs projection, which CVODE has for bdf only", "adams",
-                      "use integrator erk or bdf with form index1"});
+    throw InputError({"analysis.integrator", "form index1 needs projection, which CVODE has for bdf only",
+                      "adams", "use integrator erk or bdf with form index1"});
   return r;
 }
 
-std::unique_ptr<Integrator> make_integrator(const System& system, const IntegratorOptions& options, Workspace& ws) {
+std::unique_ptr<Integrator> make_integrator(const System& system, const IntegratorOptions& options,
+                                            Workspace& ws) {
   if (options.form == Form::ggl) return make_ida_integrator(system, options, ws);
   if (options.method == Method::erk) return make_erk_integrator(system, options, ws);
   return make_cvode_integrator(system, options, ws);

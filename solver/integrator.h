@@ -13,8 +13,8 @@ namespace wishbone {
 enum class Form {
   automatic,  ///< ode without closures, index1 with
   ode,        ///< v' from the tree alone; only without closures
-  index1,     ///< v' and lambda from the closed system; positions and speeds projected onto the closures after each step
-  ggl,        ///< Gear-Gupta-Leimkuhler: closures at both levels, the multipliers entering as derivatives of their integrals
+  index1,  ///< v' and lambda from the closed system; positions and speeds projected onto the closures after each step
+  ggl,  ///< Gear-Gupta-Leimkuhler: closures at both levels, the multipliers entering as derivatives of their integrals
 };
 
 enum class Method {
@@ -28,10 +28,10 @@ enum class Method {
 struct IntegratorOptions {
   Form form = Form::automatic;
   Method method = Method::automatic;
-  double rtol = 1e-6;    ///< relative tolerance
-  double atol = 1e-8;    ///< absolute tolerance [m, rad, m/s, rad/s, m sqrt(kg) ...]
-  double max_step = 0;   ///< [s]; 0: no limit
-  long max_steps = 0;    ///< in total; 0: no limit
+  double rtol = 1e-6;   ///< relative tolerance
+  double atol = 1e-8;   ///< absolute tolerance [m, rad, m/s, rad/s, m sqrt(kg) ...]
+  double max_step = 0;  ///< [s]; 0: no limit
+  long max_steps = 0;   ///< in total; 0: no limit
 };
 
 /// Name and value, in a fixed order.
@@ -64,7 +64,8 @@ class Integrator {
 IntegratorOptions resolve(const IntegratorOptions& options, const System& system);
 
 /// @param options resolved
-std::unique_ptr<Integrator> make_integrator(const System& system, const IntegratorOptions& options, Workspace& ws);
+std::unique_ptr<Integrator> make_integrator(const System& system, const IntegratorOptions& options,
+                                            Workspace& ws);
 
 const char* to_string(Form form);
 const char* to_string(Method method);

@@ -4,8 +4,8 @@
 
 namespace wishbone {
 
-void throw_integrator_failure(FirstOrderSystem& equations, const std::string& integrator, const std::string& flag,
-                              double t, const VectorX& blame) {
+void throw_integrator_failure(FirstOrderSystem& equations, const std::string& integrator,
+                              const std::string& flag, double t, const VectorX& blame) {
   if (const std::exception_ptr failure = equations.take_failure()) {
     try {
       std::rethrow_exception(failure);
@@ -17,9 +17,11 @@ void throw_integrator_failure(FirstOrderSystem& equations, const std::string& in
   }
   Eigen::Index worst = 0;
   blame.head(equations.size() - 2).cwiseAbs().maxCoeff(&worst);
-  throw NumericsError({fmt::format("t = {:.9g} s: {}", t, equations.name(worst)),
-                       fmt::format("{} gave up ({}); this coordinate had the largest share in the error", integrator, flag),
-                       "", "loosen analysis.rtol and analysis.atol, or look for a discontinuity or an extreme stiffness there"});
+  throw NumericsError(
+      {fmt::format("t = {:.9g} s: {}", t, equations.name(worst)),
+       fmt::format("{} gave up ({}); this coordinate had the largest share in the error", integrator, flag),
+       "",
+       "loosen analysis.rtol and analysis.atol, or look for a discontinuity or an extreme stiffness there"});
 }
 
 }  // namespace wishbone

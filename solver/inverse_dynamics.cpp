@@ -26,8 +26,8 @@ void accelerate_bodies(const System& system, const VectorX& v_rate, Workspace& w
 }
 
 /// Inertia force minus loads of one body, and its modal residual.
-void set_own_force(const System& system, const TreeBody& body, const VectorX& v_rate, BodyState& s, Workspace& ws,
-                   Eigen::Ref<VectorX> r) {
+void set_own_force(const System& system, const TreeBody& body, const VectorX& v_rate, BodyState& s,
+                   Workspace& ws, Eigen::Ref<VectorX> r) {
   s.F_joint = -s.F_applied;
   if (body.flexible < 0) {
     const Vector3 alpha_B = s.X_WB.R.transpose() * angular(s.A);
@@ -68,8 +68,8 @@ void project_onto_hinges(const System& system, Workspace& ws, Eigen::Ref<VectorX
 
 }  // namespace
 
-void calc_motion_residual(const System& system, const State& state, const VectorX& v_rate, const VectorX& lambda,
-                          Workspace& ws, Eigen::Ref<VectorX> r) {
+void calc_motion_residual(const System& system, const State& state, const VectorX& v_rate,
+                          const VectorX& lambda, Workspace& ws, Eigen::Ref<VectorX> r) {
   ++ws.work.inverse_dynamics;
   update_state(system, state, ws);
   add_closure_loads(system, lambda, ws);

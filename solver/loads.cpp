@@ -15,8 +15,7 @@ void add_wrench(const System& system, MarkerIndex i, const Vector3& t, const Vec
     // Q = sum Psi_i^T f_i, body axes
     const int k = system.bodies[marker.body].flexible;
     const Vector3 f_B = body.X_WB.R.transpose() * f;
-    ws.flexible[k].load.noalias() +=
-        system.flexible[k].modal.interface_shape(marker.node).transpose() * f_B;
+    ws.flexible[k].load.noalias() += system.flexible[k].modal.interface_shape(marker.node).transpose() * f_B;
   }
 }
 

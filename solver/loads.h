@@ -8,16 +8,19 @@ namespace wishbone {
 template <class F>
 void for_each_force(const System& system, F&& f) {
   int index = 0;
-  std::apply([&](const auto&... lists) { ((
-                 [&](const auto& list) {
-                   for (const auto& element : list) f(element, index++);
-                 }(lists)),
-                                          ...); },
-             system.forces);
+  std::apply(
+      [&](const auto&... lists) {
+        (([&](const auto& list) {
+           for (const auto& element : list) f(element, index++);
+         }(lists)),
+         ...);
+      },
+      system.forces);
 }
 
 /// What force element `index`, with its states starting at x_start, is given.
-ForceInput force_input(double t, const VectorX& x, int x_start, int state_count, int index, const Workspace& ws);
+ForceInput force_input(double t, const VectorX& x, int x_start, int state_count, int index,
+                       const Workspace& ws);
 
 /// Evaluates all force elements at the markers' states, sums gravity and their wrenches into the bodies' F_applied and the
 /// flexible bodies' modal loads; sets x_rate and element_powers. Needs update_markers.

@@ -10,7 +10,9 @@ namespace {
 
 constexpr const char* kWorld = "world";
 
-void put(const Vector3& a, double* out) { Eigen::Map<Vector3>{out} = a; }
+void put(const Vector3& a, double* out) {
+  Eigen::Map<Vector3>{out} = a;
+}
 
 /// World components of the joint's own frame F.
 Matrix3 inboard_rotation(const TreeBody& body, const Workspace& ws) {
@@ -82,7 +84,8 @@ std::span<const double> Observer::sample(const State& state, const Work& work, W
 
 void Observer::add(std::string path, std::vector<int> shape, std::string units, std::string frame,
                    std::string about, Evaluate evaluate) {
-  signals_.push_back({std::move(path), std::move(shape), std::move(units), std::move(frame), std::move(about), {}});
+  signals_.push_back(
+      {std::move(path), std::move(shape), std::move(units), std::move(frame), std::move(about), {}});
   evaluators_.push_back(std::move(evaluate));
 }
 
@@ -147,12 +150,14 @@ void Observer::add_tree_joints(const System& system) {
       const int q_start = body.q_start, nq = body.nq, v_start = body.v_start, nv = body.nv;
       const bool free = body.nv == 6;
       add(path + "/coordinates", {nq}, free ? "1 (quaternion), m" : "1", "",
-          free ? "unit quaternion w x y z, then position, of the second-named body" : "unit quaternion w x y z",
+          free ? "unit quaternion w x y z, then position, of the second-named body"
+               : "unit quaternion w x y z",
           [q_start, nq](const Sample& s, double* out) {
             Eigen::Map<VectorX>(out, nq) = s.state.q.segment(q_start, nq);
           });
       add(path + "/speeds", {nv}, free ? "rad/s, m/s" : "rad/s", "",
-          free ? "angular velocity (axes of the second-named body), then velocity" : "relative angular velocity",
+          free ? "angular velocity (axes of the second-named body), then velocity"
+               : "relative angular velocity",
           [v_start, nv](const Sample& s, double* out) {
             Eigen::Map<VectorX>(out, nv) = s.state.v.segment(v_start, nv);
           });
@@ -173,7 +178,8 @@ void Observer::add_tree_joints(const System& system) {
           const auto& joint = std::get<PrescribedJoint>(b.joint);
           const Vector3 axis = inboard_rotation(b, s.ws) * joint.axis_F;
           const Vector6 F = -reaction_on_parent(b, s.ws.bodies[i]);
-          *out = axis.dot(joint.kind == PrescribedJoint::Kind::revolute ? Vector3(angular(F)) : Vector3(linear(F)));
+          *out = axis.dot(joint.kind == PrescribedJoint::Kind::revolute ? Vector3(angular(F))
+                                                                        : Vector3(linear(F)));
         });
   }
 }
@@ -244,7 +250,8 @@ void Observer::add_vehicle(const ObserverOptions& options) {
       [state](const Sample& s, double* out) { *out = state(s).X_WB.p.z(); });
   add("/vehicle/lateral_velocity", {}, "m/s", "", "velocity of the chassis origin along the chassis y axis",
       [v_B](const Sample& s, double* out) { *out = v_B(s).y(); });
-  add("/vehicle/side_slip", {}, "rad", "", "atan2(vy, vx) in chassis components, positive when drifting to the left",
+  add("/vehicle/side_slip", {}, "rad", "",
+      "atan2(vy, vx) in chassis components, positive when drifting to the left",
       [v_B](const Sample& s, double* out) { *out = std::atan2(v_B(s).y(), v_B(s).x()); });
   add("/vehicle/roll_rate", {}, "rad/s", "", "angular velocity about the chassis x axis",
       [w_B](const Sample& s, double* out) { *out = w_B(s).x(); });
@@ -266,13 +273,15 @@ void Observer::add_energy() {
       [](const Sample& s, double* out) { *out = s.energy.elastic; });
   add("/energy/springs", {}, "J", "", "energy stored in springs and tires",
       [](const Sample& s, double* out) { *out = s.energy.springs; });
-  add("/energy/dissipated", {}, "J", "", "energy lost in dampers, tires and structural damping since the start",
+  add("/energy/dissipated", {}, "J", "",
+      "energy lost in dampers, tires and structural damping since the start",
       [](const Sample& s, double* out) { *out = s.dissipated; });
   add("/energy/input", {}, "J", "", "energy brought in by loads and prescribed motions since the start",
       [](const Sample& s, double* out) { *out = s.input; });
   add("/energy/balance", {}, "J", "", "sum of the stored energies, plus dissipated, minus input: a constant",
       [](const Sample& s, double* out) {
-        *out = s.energy.kinetic + s.energy.gravity + s.energy.elastic + s.energy.springs + s.dissipated - s.input;
+        *out = s.energy.kinetic + s.energy.gravity + s.energy.elastic + s.energy.springs + s.dissipated -
+               s.input;
       });
 }
 

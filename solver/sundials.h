@@ -61,7 +61,11 @@ inline Vector make_vector(Eigen::Index n, SUNContext context) {
   return v;
 }
 
-inline Eigen::Map<VectorX> map(N_Vector v) { return {N_VGetArrayPointer(v), N_VGetLength(v)}; }
-inline Eigen::Map<VectorX> map(const Vector& v) { return map(v.get()); }
+inline Eigen::Map<VectorX> map(N_Vector v) {
+  return {N_VGetArrayPointer(v), N_VGetLength(v)};
+}
+inline Eigen::Map<VectorX> map(const Vector& v) {
+  return map(v.get());
+}
 
 }  // namespace wishbone::sundials

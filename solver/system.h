@@ -23,14 +23,14 @@ struct TreeBody {
   std::string name;
   std::string joint_name;
   bool floating = false;  ///< on a free joint that the scene does not name
-  int parent = -1;       ///< index of the inboard body, always smaller than the own index; -1: the inertial frame
+  int parent = -1;  ///< index of the inboard body, always smaller than the own index; -1: the inertial frame
   int parent_node = -1;  ///< interface node of a flexible parent that carries the joint; -1: rigid parent
-  Pose X_PF;             ///< inboard joint frame on the parent (the node's undeformed position on a flexible one)
-  Pose X_MB;             ///< body frame in the outboard joint frame
+  Pose X_PF;  ///< inboard joint frame on the parent (the node's undeformed position on a flexible one)
+  Pose X_MB;  ///< body frame in the outboard joint frame
   TreeJoint joint;
-  int q_start = 0, v_start = 0;  ///< of the joint's coordinates and speeds
-  int nq = 0, nv = 0;            ///< of the joint
-  double mass = 0;               ///< [kg]
+  int q_start = 0, v_start = 0;   ///< of the joint's coordinates and speeds
+  int nq = 0, nv = 0;             ///< of the joint
+  double mass = 0;                ///< [kg]
   Matrix3 J_B = Matrix3::Zero();  ///< about the mass centre, body axes [kg m^2]; unused for a flexible body
   int flexible = -1;              ///< index into System::flexible; -1: rigid
 };
@@ -38,9 +38,10 @@ struct TreeBody {
 /// The elastic part of a tree body: its modal coordinates follow the joint's coordinates and speeds of that body.
 struct FlexibleBody {
   ModalBody modal;
-  int body = 0;                      ///< the tree body it belongs to
+  int body = 0;                       ///< the tree body it belongs to
   int z_start = 0, z_rate_start = 0;  ///< where z and z' stand in q and v
-  bool carries_joints = false;       ///< tree joints hang on its nodes, so its modal mass matrix is not the identity
+  bool carries_joints =
+      false;  ///< tree joints hang on its nodes, so its modal mass matrix is not the identity
 };
 
 /// A marker of the compiled scene: fixed to a body, or to an interface node of a flexible one.
@@ -60,8 +61,7 @@ struct Closure {
 };
 
 /// Force elements by concrete type, so that the evaluation calls them without dispatch. A new force is one entry.
-using ForceElements =
-    std::tuple<std::vector<SpringDamper>, std::vector<Tire>, std::vector<AppliedLoad>>;
+using ForceElements = std::tuple<std::vector<SpringDamper>, std::vector<Tire>, std::vector<AppliedLoad>>;
 
 /// The compiled scene: what must be evaluated and nothing else. Immutable; every mutable number of an evaluation is in
 /// a Workspace. Made by SystemBuilder.

@@ -9,7 +9,7 @@ namespace wishbone {
 
 struct TransientOptions {
   IntegratorOptions integrator;
-  double duration = 1;    ///< [s]
+  double duration = 1;     ///< [s]
   double interval = 0.01;  ///< between outputs [s]
 };
 
@@ -18,7 +18,7 @@ struct TransientSummary {
   enum class Status { failed, interrupted, complete };
   Status status = Status::failed;
   std::string message = "not started";
-  double t_end = 0;  ///< time reached [s]
+  double t_end = 0;              ///< time reached [s]
   IntegratorOptions integrator;  ///< as resolved
   AssemblyReport assembly;
   Statistics statistics;
@@ -33,7 +33,8 @@ using Output = std::function<void(const State&, const Work&)>;
 /// step; false interrupts the run.
 /// @throws InputError when the state cannot be assembled; numerical failure comes back in the summary, after all output
 ///   that was computed
-TransientSummary run_transient(const System& system, State state, const TransientOptions& options, Workspace& ws,
-                               const Output& output, const std::function<bool(double)>& keep_going = {});
+TransientSummary run_transient(const System& system, State state, const TransientOptions& options,
+                               Workspace& ws, const Output& output,
+                               const std::function<bool(double)>& keep_going = {});
 
 }  // namespace wishbone

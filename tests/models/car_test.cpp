@@ -54,8 +54,8 @@ double difference(const Result& a, const Result& b, const std::string& path) {
 }
 
 const std::vector<std::string> kVehicle = {
-    "/bodies/chassis/position",  "/bodies/chassis/velocity",    "/vehicle/roll_rate",
-    "/vehicle/yaw_rate",         "/vehicle/side_slip",          "/vehicle/lateral_velocity",
+    "/bodies/chassis/position",  "/bodies/chassis/velocity",     "/vehicle/roll_rate",
+    "/vehicle/yaw_rate",         "/vehicle/side_slip",           "/vehicle/lateral_velocity",
     "/vehicle/lateral_position", "/tires/front_left_tire/force", "/tires/rear_right_tire/deflection"};
 
 double worst_vehicle_difference(const Result& a, const Result& b) {
@@ -135,7 +135,8 @@ TEST_P(Chassis, StaysOnTheRoad) {
   for (const char* scene : {"sine_depression", "impulse_steer"}) {
     const Result r = run({scene, set(), 1.0, 1e-5});
     for (const char* tire : {"front_left", "front_right", "rear_left", "rear_right"})
-      EXPECT_GT(r[std::string("/tires/") + tire + "_tire/deflection"].minCoeff(), 0.005) << scene << " " << tire;
+      EXPECT_GT(r[std::string("/tires/") + tire + "_tire/deflection"].minCoeff(), 0.005)
+          << scene << " " << tire;
   }
 }
 

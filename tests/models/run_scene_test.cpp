@@ -32,7 +32,8 @@ analysis: {duration: 1 s, max_step: 0.1 s}
 output: {interval: 0.1 s}
 )";
 
-RunResult run(const TextFiles& files, const char* text, const std::function<void(CompiledScene&)>& change = {},
+RunResult run(const TextFiles& files, const char* text,
+              const std::function<void(CompiledScene&)>& change = {},
               std::function<bool(double)> keep_going = {}) {
   const Scene scene = load_scene(files.write("scene.yaml", text));
   CompiledScene compiled = compile(scene);
@@ -88,7 +89,7 @@ TEST(Plan, CountsTheCar) {
   EXPECT_EQ(plan.bodies, 11);
   EXPECT_EQ(plan.closure_rows, 24);
   EXPECT_THAT(plan.redundant_rows, ::testing::ElementsAre("front_left_stay (x)", "front_right_stay (x)",
-                                                         "rear_left_stay (x)", "rear_right_stay (x)"));
+                                                          "rear_left_stay (x)", "rear_right_stay (x)"));
   // chassis 6, a swing for each link, a spin for each wheel
   EXPECT_EQ(plan.mobility, 6 + 4 + 4);
 }

@@ -51,7 +51,8 @@ void expect_no_allocation(Built m) {
 
 TEST(Allocation, CounterSeesOperatorNewAndEigen) {
   EXPECT_GT(allocations([] { VectorX::Random(100).eval(); }), 0);
-  EXPECT_GT(allocations([] { ::operator delete(::operator new(3)); }), 0);  // a plain new may be optimised away
+  EXPECT_GT(allocations([] { ::operator delete(::operator new(3)); }),
+            0);  // a plain new may be optimised away
 }
 
 TEST(Allocation, NoneInEvaluatingAFlexibleCarOnTires) {
