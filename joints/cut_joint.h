@@ -16,6 +16,7 @@ struct MarkerAcceleration {
 /// A cut joint closes a loop between a marker A and a marker B by rows Phi = 0. Its contract (a concept):
 ///
 ///     static constexpr int kRows;
+///     static constexpr int kAngles;                                  the last rows that are angles
 ///     static constexpr std::array<const char*, kRows> kDirections;   names of the rows, for messages
 ///     void residual(A, B, Phi)                      Phi
 ///     void wrenches(A, B, W_A, W_B)                 column i: the (moment, force) that a unit multiplier of row i puts
@@ -33,6 +34,7 @@ using ClosureWrenches = Eigen::Matrix<double, 6, rows>;
 /// Mo of B stays on Mo of A: Phi = R_AW (p_WB - p_WA), 3 rows [m].
 struct SphericalClosure {
   static constexpr int kRows = 3;
+  static constexpr int kAngles = 0;
   static constexpr std::array<const char*, 3> kDirections{"x", "y", "z"};
 
   void residual(const MarkerState& A, const MarkerState& B, Eigen::Ref<ClosureVector<3>> Phi) const;
@@ -46,6 +48,7 @@ struct SphericalClosure {
 /// Phi = (R_AW (p_WB - p_WA), z_A . x_B, z_A . y_B), 3 rows [m] and 2 rows [rad].
 struct RevoluteClosure {
   static constexpr int kRows = 5;
+  static constexpr int kAngles = 2;
   static constexpr std::array<const char*, 5> kDirections{"x", "y", "z", "tilt about y", "tilt about x"};
 
   void residual(const MarkerState& A, const MarkerState& B, Eigen::Ref<ClosureVector<5>> Phi) const;
@@ -60,6 +63,10 @@ using CutJoint = std::variant<SphericalClosure, RevoluteClosure>;
 
 inline int row_count(const CutJoint& joint) {
   return std::visit([](const auto& j) { return j.kRows; }, joint);
+}
+/// Whether a row is an angle [rad] rather than a length [m]; a joint's angles come last.
+inline bool row_is_angle(const CutJoint& joint, int row) {
+  return std::visit([row](const auto& j) { return row >= j.kRows - j.kAngles; }, joint);
 }
 inline const char* row_direction(const CutJoint& joint, int row) {
   return std::visit([row](const auto& j) { return j.kDirections[row]; }, joint);

@@ -56,6 +56,9 @@ std::vector<double> read_damping(const Value& value, int modes) {
   return ratios;
 }
 
+/// The modes of a block come from a dense eigenproblem of three freedoms a node, whose cost grows with the cube.
+constexpr int kMostNodes = 500;
+
 Scene::Flexible read_flexible(const Value& value) {
   const Mapping keys(value, {"block", "material", "modes", "damping"});
   Scene::Flexible flexible;
@@ -71,6 +74,11 @@ Scene::Flexible read_flexible(const Value& value) {
   constexpr int kMostElements = 100;
   for (int i = 0; i < 3; ++i)
     flexible.elements[i] = counts[static_cast<std::size_t>(i)].integer(1, kMostElements);
+
+  if (const int nodes = block_node_count(flexible); nodes > kMostNodes)
+    elements.refuse(fmt::format("the block has {} nodes, more than the {} whose modes can be computed", nodes,
+                                kMostNodes),
+                    "take fewer elements");
 
   const Mapping material(keys.required("material"), {"young", "poisson", "density"});
   flexible.young = material.required("young").positive(kPressure);

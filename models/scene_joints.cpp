@@ -215,7 +215,7 @@ void check_tree(const Scene& scene) {
     const Scene::Body& body = scene.bodies[b];
     if (carrier[b] < 0 || (body.v_WBo.isZero(0) && body.w_WB_B.isZero(0))) continue;
     const Scene::Joint& joint = scene.joints[static_cast<std::size_t>(carrier[b])];
-    if (joint.type == JointType::kFree) continue;
+    if (joint.type == JointType::kFree && joint.parent.body == Scene::kGround) continue;
     throw InputError({body.where.text(),
                       fmt::format("the velocity of the body follows from the joint '{}'", joint.name), "",
                       "remove 'velocity' and 'angular_velocity'; give the joint a 'speed' if it moves"});

@@ -1,5 +1,6 @@
 #include "solver/observer.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "solver/forward_dynamics.h"
@@ -36,6 +37,13 @@ JointMotion scalar_motion(const TreeBody& body, const State& state) {
     return {u.position, u.rate};
   }
   return {state.q[body.q_start], state.v[body.v_start]};
+}
+
+/// Axis of a joint with one freedom or with a prescribed motion, axes of the body.
+Vector3 scalar_axis(const TreeBody& body) {
+  if (const auto* prescribed = std::get_if<PrescribedJoint>(&body.joint)) return prescribed->axis_F;
+  if (const auto* revolute = std::get_if<RevoluteJoint>(&body.joint)) return revolute->axis_F;
+  return std::get<PrismaticJoint>(body.joint).axis_F;
 }
 
 struct Units {
@@ -147,20 +155,8 @@ void Observer::add_tree_joints(const System& system) {
       add(path + "/speeds", {}, units.speed, "", "joint speed",
           [i](const Sample& s, double* out) { *out = scalar_motion(s.system.bodies[i], s.state).rate; });
     } else if (body.nv > 1) {
-      const int q_start = body.q_start, nq = body.nq, v_start = body.v_start, nv = body.nv;
-      const bool free = body.nv == 6;
-      add(path + "/coordinates", {nq}, free ? "1 (quaternion), m" : "1", "",
-          free ? "unit quaternion w x y z, then position, of the second-named body"
-               : "unit quaternion w x y z",
-          [q_start, nq](const Sample& s, double* out) {
-            Eigen::Map<VectorX>(out, nq) = s.state.q.segment(q_start, nq);
-          });
-      add(path + "/speeds", {nv}, free ? "rad/s, m/s" : "rad/s", "",
-          free ? "angular velocity (axes of the second-named body), then velocity"
-               : "relative angular velocity",
-          [v_start, nv](const Sample& s, double* out) {
-            Eigen::Map<VectorX>(out, nv) = s.state.v.segment(v_start, nv);
-          });
+      add_rotation(path, body);
+      if (body.nv == 6) add_translation(path, body);
     }
     add(path + "/force", {3}, "N", kWorld, "reaction on the first-named body, at the joint",
         [i](const Sample& s, double* out) {
@@ -182,6 +178,23 @@ void Observer::add_tree_joints(const System& system) {
                                                                         : Vector3(linear(F)));
         });
   }
+}
+
+void Observer::add_rotation(const std::string& path, const TreeBody& body) {
+  add(path + "/orientation", {4}, "1", "second-named body to first-named body",
+      "unit quaternion w x y z of the relative rotation, the identity in the design pose",
+      [q = body.q_start](const Sample& s, double* out) {
+        Eigen::Map<Eigen::Vector4d>{out} = s.state.q.segment<4>(q);
+      });
+  add(path + "/angular_velocity", {3}, "rad/s", "second-named body", "relative angular velocity",
+      [v = body.v_start](const Sample& s, double* out) { put(s.state.v.segment<3>(v), out); });
+}
+
+void Observer::add_translation(const std::string& path, const TreeBody& body) {
+  add(path + "/position", {3}, "m", "first-named body", "origin of the second-named body",
+      [q = body.q_start](const Sample& s, double* out) { put(s.state.q.segment<3>(q + 4), out); });
+  add(path + "/velocity", {3}, "m/s", "first-named body", "velocity seen from the first-named body",
+      [v = body.v_start](const Sample& s, double* out) { put(s.state.v.segment<3>(v + 3), out); });
 }
 
 void Observer::add_closures(const System& system) {
@@ -259,8 +272,11 @@ void Observer::add_vehicle(const ObserverOptions& options) {
       [w_B](const Sample& s, double* out) { *out = w_B(s).z(); });
   for (const ObserverOptions::Steering& steering : options.steering) {
     const int i = steering.body;
+    const double sign = scalar_axis(system_.bodies[i]).z() < 0 ? -1.0 : 1.0;  // of an axis that points down
     add("/vehicle/steering_" + steering.name, {}, "rad", "", "steering angle, positive to the left",
-        [i](const Sample& s, double* out) { *out = scalar_motion(s.system.bodies[i], s.state).position; });
+        [i, sign](const Sample& s, double* out) {
+          *out = sign * scalar_motion(s.system.bodies[i], s.state).position;
+        });
   }
 }
 
@@ -287,10 +303,26 @@ void Observer::add_energy() {
 
 void Observer::add_constraints(const System& system) {
   if (system.n_rows == 0) return;
-  add("/constraints/position_residual", {}, "m", "", "largest gap of a cut joint (m or rad)",
-      [](const Sample& s, double* out) { *out = s.ws.Phi.cwiseAbs().maxCoeff(); });
-  add("/constraints/velocity_residual", {}, "m/s", "", "largest rate of a gap of a cut joint (m/s or rad/s)",
-      [](const Sample& s, double* out) { *out = s.ws.Phi_rate.cwiseAbs().maxCoeff(); });
+  const auto largest = [](const System& of, const VectorX& r, bool angles) {
+    double worst = 0;
+    for (const Closure& closure : of.closures)
+      for (int i = 0; i < closure.rows; ++i)
+        if (row_is_angle(closure.joint, i) == angles)
+          worst = std::max(worst, std::abs(r[closure.row_start + i]));
+    return worst;
+  };
+  add("/constraints/position_residual", {}, "m", "", "largest gap of a cut joint",
+      [largest](const Sample& s, double* out) { *out = largest(s.system, s.ws.Phi, false); });
+  add("/constraints/velocity_residual", {}, "m/s", "", "largest rate of a gap of a cut joint",
+      [largest](const Sample& s, double* out) { *out = largest(s.system, s.ws.Phi_rate, false); });
+  const bool angles = std::any_of(system.closures.begin(), system.closures.end(),
+                                  [](const Closure& c) { return row_is_angle(c.joint, c.rows - 1); });
+  if (!angles) return;
+  add("/constraints/angle_residual", {}, "rad", "", "largest misalignment of a cut joint",
+      [largest](const Sample& s, double* out) { *out = largest(s.system, s.ws.Phi, true); });
+  add("/constraints/angular_velocity_residual", {}, "rad/s", "",
+      "largest rate of a misalignment of a cut joint",
+      [largest](const Sample& s, double* out) { *out = largest(s.system, s.ws.Phi_rate, true); });
 }
 
 }  // namespace wishbone

@@ -53,6 +53,8 @@ class Observer {
   void add_bodies(const System& system);
   void add_flexible(const System& system, const ObserverOptions& options);
   void add_tree_joints(const System& system);
+  void add_rotation(const std::string& path, const TreeBody& body);
+  void add_translation(const std::string& path, const TreeBody& body);
   void add_closures(const System& system);
   void add_forces(const System& system);
   void add_vehicle(const ObserverOptions& options);

@@ -46,7 +46,7 @@ class Run {
         emit_until(t);
         check_limits(summary.integrator, t);
         check_progress(t);
-        if (keep_going && !keep_going(t)) return interrupt(summary, t);
+        if (keep_going && t < options_.duration && !keep_going(t)) return interrupt(summary, t);
         if (!step.events.empty()) {
           for (const int event : step.events) handle_event(system_, event, ws_);
           restart(t, summary);
@@ -86,7 +86,10 @@ class Run {
     integrator_->interpolate(t, state_, work_);
     normalize_quaternions(system_, state_.q);
     if (ws_.kept.empty()) return;
-    project_positions(system_, kProjectionTolerance, state_, ws_);
+    if (project_positions(system_, kProjectionTolerance, state_, ws_) < 0)
+      throw NumericsError({fmt::format("t = {:.9g} s", t),
+                           "the state could not be brought back onto the cut joints", "",
+                           "tighten analysis.rtol, or look for a singular position at this time"});
     project_velocities(system_, state_, ws_);
   }
 

@@ -461,5 +461,20 @@ TEST(SceneWithoutBodies, IsRefused) {
             "scene.yaml:2:1: bodies: error: there are no bodies\n  describe at least one");
 }
 
+// A free joint between two bodies has speeds relative to the first; an inertial velocity of the second would be another thing.
+TEST(BrokenScene, VelocityOfABodyFreeOnAnotherIsRefused) {
+  const TextFiles files;
+  const auto file = files.write("scene.yaml", R"(wishbone: 1
+bodies:
+  ship: {mass: 1, inertia: [1, 1, 1], position: [0, 0, 0], velocity: [10, 0, 0]}
+  boat: {mass: 1, inertia: [1, 1, 1], position: [0, 1, 0], velocity: [10, 0, 0]}
+joints:
+  tow: {type: free, bodies: [ship, boat]}
+)");
+  EXPECT_EQ(files.relative(message_of<InputError>([&] { load_scene(file); })),
+            "scene.yaml:4:3: bodies.boat: error: the velocity of the body follows from the joint 'tow'\n"
+            "  remove 'velocity' and 'angular_velocity'; give the joint a 'speed' if it moves");
+}
+
 }  // namespace
 }  // namespace wishbone

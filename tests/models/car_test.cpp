@@ -165,6 +165,14 @@ TEST(Car, ChassisSagsByThreeMillimetresWhenLetGo) {
   EXPECT_NEAR(d.col(5).cwiseAbs().maxCoeff(), 3e-3, 0.5e-3);
 }
 
+TEST(Car, ChassisBendsByMillimetresInTheDepression) {
+  // source, chapter 7: 4.5 mm vertical at node 20 for tire data and free lengths of its own: the size, not the digits
+  const Result r = run({"sine_depression", {"chassis=modal"}, 0.7, 1e-5});
+  const double node_20 = r["/flexible/chassis/deflection"].col(5).cwiseAbs().maxCoeff();
+  EXPECT_GT(node_20, 2e-3);
+  EXPECT_LT(node_20, 7e-3);
+}
+
 TEST(Car, RigidAndFlexibleChassisDifferVisibly) {
   const Result rigid = run({"impulse_steer", {"chassis=rigid"}, 1.2, 1e-5});
   const Result flexible = run({"impulse_steer", {"chassis=modal"}, 1.2, 1e-5});
