@@ -135,14 +135,8 @@ Integrator::Step CvodeIntegrator::step(double t_stop) {
                              blame());
   }
   equations_.take_failure();  // a trial state that was retried with a smaller step
-  Step result{t_, {}};
-  if (flag == CV_ROOT_RETURN) {
-    std::vector<int> found(event_count_);
-    CVodeGetRootInfo(cvode, found.data());
-    for (int i = 0; i < event_count_; ++i)
-      if (found[i] != 0) result.events.push_back(i);
-  }
-  return result;
+  if (flag != CV_ROOT_RETURN) return {t_, {}};
+  return {t_, sundials::events_found(cvode, CVodeGetRootInfo, event_count_)};
 }
 
 void CvodeIntegrator::interpolate(double t, State& state, Work& work) {
@@ -151,28 +145,19 @@ void CvodeIntegrator::interpolate(double t, State& state, Work& work) {
 }
 
 VectorX CvodeIntegrator::blame() const {
-  CVodeGetErrWeights(cvode_.get(), scratch_.get());
-  VectorX share = sundials::map(scratch_);
-  long steps = 0;
-  CVodeGetNumSteps(cvode_.get(), &steps);
-  if (steps == 0) return share.cwiseProduct(sundials::map(y_));
-  CVodeGetEstLocalErrors(cvode_.get(), scratch_.get());
-  return share.cwiseProduct(sundials::map(scratch_));
+  return sundials::error_shares(cvode_.get(), CVodeGetErrWeights, CVodeGetEstLocalErrors, CVodeGetNumSteps,
+                                y_.get(), scratch_.get());
 }
 
 CvodeIntegrator::Counts CvodeIntegrator::counts() const {
   Counts n = before_;
-  const auto add = [&](long& total, auto get) {
-    long count = 0;
-    if (get(cvode_.get(), &count) == 0) total += count;
-  };
-  add(n.steps, CVodeGetNumSteps);
-  add(n.rates, CVodeGetNumRhsEvals);
-  add(n.error_failures, CVodeGetNumErrTestFails);
-  add(n.iteration_failures, CVodeGetNumNonlinSolvConvFails);
+  sundials::add_count(cvode_.get(), CVodeGetNumSteps, n.steps);
+  sundials::add_count(cvode_.get(), CVodeGetNumRhsEvals, n.rates);
+  sundials::add_count(cvode_.get(), CVodeGetNumErrTestFails, n.error_failures);
+  sundials::add_count(cvode_.get(), CVodeGetNumNonlinSolvConvFails, n.iteration_failures);
   if (linear_) {
-    add(n.rates, CVodeGetNumLinRhsEvals);
-    add(n.jacobians, CVodeGetNumJacEvals);
+    sundials::add_count(cvode_.get(), CVodeGetNumLinRhsEvals, n.rates);
+    sundials::add_count(cvode_.get(), CVodeGetNumJacEvals, n.jacobians);
   }
   return n;
 }

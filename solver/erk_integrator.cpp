@@ -141,14 +141,8 @@ Integrator::Step ErkIntegrator::step(double t_stop) {
     throw_integrator_failure(equations_, "ARKODE", sundials::flag_name(ERKStepGetReturnFlagName(flag)), t_,
                              blame());
   equations_.take_failure();  // a trial state that was retried with a smaller step
-  Step result{t_, {}};
-  if (flag == ARK_ROOT_RETURN) {
-    std::vector<int> found(event_count_);
-    ERKStepGetRootInfo(arkode, found.data());
-    for (int i = 0; i < event_count_; ++i)
-      if (found[i] != 0) result.events.push_back(i);
-  }
-  return result;
+  if (flag != ARK_ROOT_RETURN) return {t_, {}};
+  return {t_, sundials::events_found(arkode, ERKStepGetRootInfo, event_count_)};
 }
 
 void ErkIntegrator::interpolate(double t, State& state, Work& work) {
@@ -158,24 +152,15 @@ void ErkIntegrator::interpolate(double t, State& state, Work& work) {
 }
 
 VectorX ErkIntegrator::blame() const {
-  ERKStepGetErrWeights(arkode_.get(), scratch_.get());
-  VectorX share = sundials::map(scratch_);
-  long steps = 0;
-  ERKStepGetNumSteps(arkode_.get(), &steps);
-  if (steps == 0) return share.cwiseProduct(sundials::map(y_));
-  ERKStepGetEstLocalErrors(arkode_.get(), scratch_.get());
-  return share.cwiseProduct(sundials::map(scratch_));
+  return sundials::error_shares(arkode_.get(), ERKStepGetErrWeights, ERKStepGetEstLocalErrors,
+                                ERKStepGetNumSteps, y_.get(), scratch_.get());
 }
 
 ErkIntegrator::Counts ErkIntegrator::counts() const {
   Counts n = before_;
-  const auto add = [&](long& total, auto get) {
-    long count = 0;
-    if (get(arkode_.get(), &count) == 0) total += count;
-  };
-  add(n.steps, ERKStepGetNumSteps);
-  add(n.rates, ERKStepGetNumRhsEvals);
-  add(n.error_failures, ERKStepGetNumErrTestFails);
+  sundials::add_count(arkode_.get(), ERKStepGetNumSteps, n.steps);
+  sundials::add_count(arkode_.get(), ERKStepGetNumRhsEvals, n.rates);
+  sundials::add_count(arkode_.get(), ERKStepGetNumErrTestFails, n.error_failures);
   return n;
 }
 

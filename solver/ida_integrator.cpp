@@ -181,14 +181,8 @@ Integrator::Step IdaIntegrator::step(double t_stop) {
   if (flag < 0)
     throw_integrator_failure(equations_, "IDA", sundials::flag_name(IDAGetReturnFlagName(flag)), t_, blame());
   equations_.take_failure();  // a trial state that was retried with a smaller step
-  Step result{t_, {}};
-  if (flag == IDA_ROOT_RETURN) {
-    std::vector<int> found(event_count_);
-    IDAGetRootInfo(ida, found.data());
-    for (int i = 0; i < event_count_; ++i)
-      if (found[i] != 0) result.events.push_back(i);
-  }
-  return result;
+  if (flag != IDA_ROOT_RETURN) return {t_, {}};
+  return {t_, sundials::events_found(ida, IDAGetRootInfo, event_count_)};
 }
 
 void IdaIntegrator::interpolate(double t, State& state, Work& work) {
@@ -197,27 +191,18 @@ void IdaIntegrator::interpolate(double t, State& state, Work& work) {
 }
 
 VectorX IdaIntegrator::blame() const {
-  IDAGetErrWeights(ida_.get(), scratch_.get());
-  VectorX share = sundials::map(scratch_);
-  long steps = 0;
-  IDAGetNumSteps(ida_.get(), &steps);
-  if (steps == 0) return share.cwiseProduct(sundials::map(y_));
-  IDAGetEstLocalErrors(ida_.get(), scratch_.get());
-  return share.cwiseProduct(sundials::map(scratch_));
+  return sundials::error_shares(ida_.get(), IDAGetErrWeights, IDAGetEstLocalErrors, IDAGetNumSteps, y_.get(),
+                                scratch_.get());
 }
 
 IdaIntegrator::Counts IdaIntegrator::counts() const {
   Counts n = before_;
-  const auto add = [&](long& total, auto get) {
-    long count = 0;
-    if (get(ida_.get(), &count) == 0) total += count;
-  };
-  add(n.steps, IDAGetNumSteps);
-  add(n.residuals, IDAGetNumResEvals);
-  add(n.residuals, IDAGetNumLinResEvals);
-  add(n.jacobians, IDAGetNumJacEvals);
-  add(n.error_failures, IDAGetNumErrTestFails);
-  add(n.iteration_failures, IDAGetNumNonlinSolvConvFails);
+  sundials::add_count(ida_.get(), IDAGetNumSteps, n.steps);
+  sundials::add_count(ida_.get(), IDAGetNumResEvals, n.residuals);
+  sundials::add_count(ida_.get(), IDAGetNumLinResEvals, n.residuals);
+  sundials::add_count(ida_.get(), IDAGetNumJacEvals, n.jacobians);
+  sundials::add_count(ida_.get(), IDAGetNumErrTestFails, n.error_failures);
+  sundials::add_count(ida_.get(), IDAGetNumNonlinSolvConvFails, n.iteration_failures);
   return n;
 }
 

@@ -10,6 +10,7 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "core/spatial.h"
 
@@ -61,11 +62,40 @@ inline Vector make_vector(Eigen::Index n, SUNContext context) {
   return v;
 }
 
+/// Adds a counter of an integrator to `total`; nothing when the integrator does not exist yet.
+inline void add_count(void* integrator, int (*get)(void*, long*), long& total) {
+  long count = 0;
+  if (get(integrator, &count) == 0) total += count;
+}
+
+/// Indices of the event functions at whose root an integrator has stopped.
+inline std::vector<int> events_found(void* integrator, int (*get)(void*, int*), int count) {
+  std::vector<int> found(count);
+  get(integrator, found.data());
+  std::vector<int> events;
+  for (int i = 0; i < count; ++i)
+    if (found[i] != 0) events.push_back(i);
+  return events;
+}
+
 inline Eigen::Map<VectorX> map(N_Vector v) {
   return {N_VGetArrayPointer(v), N_VGetLength(v)};
 }
 inline Eigen::Map<VectorX> map(const Vector& v) {
   return map(v.get());
+}
+
+/// Shares of the coordinates in the weighted error of the last step or, before the first step, in the weighted state.
+inline VectorX error_shares(void* integrator, int (*get_weights)(void*, N_Vector),
+                            int (*get_errors)(void*, N_Vector), int (*get_steps)(void*, long*), N_Vector y,
+                            N_Vector scratch) {
+  get_weights(integrator, scratch);
+  const VectorX weights = map(scratch);
+  long steps = 0;
+  get_steps(integrator, &steps);
+  if (steps == 0) return weights.cwiseProduct(map(y));
+  get_errors(integrator, scratch);
+  return weights.cwiseProduct(map(scratch));
 }
 
 }  // namespace wishbone::sundials
