@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "solver/transient.h"
 
@@ -11,13 +13,18 @@ namespace wishbone {
 struct AnalysisOptions {
   std::optional<Form> form;
   std::optional<Method> integrator;
-  std::optional<double> rtol, atol, until;
+  std::optional<double> rtol, atol;
+  std::optional<double> until;          ///< [s]
+  std::vector<std::string> as_written;  ///< "--rtol 1e-4", for the record
 };
 
-/// Adds --form, --integrator, --rtol, --atol and --until to a sub-command.
+/// Adds --form, --integrator, --rtol, --atol and --until to a sub-command. Parsing them throws InputError under the rules that
+/// the scene has for the same keys.
 void add_analysis_options(CLI::App& command, AnalysisOptions& options);
 
-/// Replaces what was named on the command line.
+/// Replaces what was named on the command line. A run shorter than the interval of outputs has its end as the only one after
+/// the start.
+/// @throws InputError when there would be more outputs than a scene may ask for
 void apply(const AnalysisOptions& options, TransientOptions& transient);
 
 }  // namespace wishbone

@@ -3,14 +3,19 @@
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "app/check_output.h"
 #include "app/command.h"
+#include "app/glob.h"
 #include "app/junit.h"
 #include "app/meta_text.h"
 #include "app/regression.h"
 #include "app/table.h"
 #include "app/text_file.h"
 #include "app/tolerances.h"
+#include "core/did_you_mean.h"
+#include "core/error.h"
 
 namespace wishbone {
 
@@ -20,7 +25,7 @@ struct Options {
   std::string fresh, base;
   std::string tolerances;
   std::vector<std::string> rules;
-  std::string junit;
+  std::optional<std::string> junit;
   bool json = false;
 };
 
@@ -50,17 +55,29 @@ void print_json(const std::vector<Verdict>& verdicts, const Options& options, lo
   fmt::print("{}\n", out.dump(2));
 }
 
+/// A rule of the command line that touches no signal is a mistyped one, and the tolerance meant would be lost.
+void add_rule(const std::string& rule, const ResultFile& base, Tolerances& tolerances) {
+  const std::string glob = tolerances.add(rule);
+  std::vector<std::string> paths;
+  for (const Signal& signal : base.signals()) paths.push_back(signal.path);
+  if (std::none_of(paths.begin(), paths.end(), [&](const std::string& p) { return matches(glob, p); }))
+    throw InputError({"--tol", "no signal of " + base.path() + " matches", "'" + glob + "'",
+                      did_you_mean(glob, paths, "its signals")});
+}
+
 ExitCode run(const Options& options) {
+  if (options.junit) check_output(*options.junit, {options.fresh, options.base, options.tolerances});
+  const ResultFile fresh(options.fresh);
+  const ResultFile base(options.base);
   Tolerances tolerances;
   if (!options.tolerances.empty()) tolerances.load(options.tolerances);
-  for (const std::string& rule : options.rules) tolerances.add(rule);
+  for (const std::string& rule : options.rules) add_rule(rule, base, tolerances);
 
-  const std::vector<Verdict> verdicts =
-      check(ResultFile(options.fresh), ResultFile(options.base), tolerances);
+  const std::vector<Verdict> verdicts = check(fresh, base, tolerances);
   const long failures =
       std::count_if(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return !v.passed; });
-  if (!options.junit.empty())
-    write_text_file(options.junit, junit_xml(options.fresh + " against " + options.base, verdicts));
+  if (options.junit)
+    write_text_file(*options.junit, junit_xml(options.fresh + " against " + options.base, verdicts));
   if (options.json)
     print_json(verdicts, options, failures);
   else

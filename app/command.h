@@ -9,7 +9,7 @@ enum ExitCode : int {
   kDone = 0,
   kComparisonFailed = 1,  ///< the files differ by more than they may
   kBadInput = 2,          ///< command line, scene or file: nothing was computed
-  kNumericsFailed = 3,    ///< what was computed up to then is kept and marked incomplete
+  kNumericsFailed = 3,    ///< or interrupted, or no disk or memory left: what was computed is kept, so marked
   kDefect = 70,           ///< an error that wishbone did not foresee (EX_SOFTWARE of sysexits.h)
 };
 

@@ -3,7 +3,9 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "app/check_output.h"
 #include "app/command.h"
 #include "app/comparison.h"
 #include "app/meta_text.h"
@@ -18,7 +20,7 @@ namespace {
 struct Options {
   std::string a, b;
   std::string title_a, title_b;
-  std::string html;
+  std::optional<std::string> html;
   Choice choice;
   bool json = false;
 };
@@ -62,14 +64,15 @@ void print_json(const Comparison& comparison, const Options& options) {
 }
 
 ExitCode run(Options options) {
+  if (options.html) check_output(*options.html, {options.a, options.b});
   const ResultFile a(options.a);
   const ResultFile b(options.b);
   if (options.title_a.empty()) options.title_a = std::filesystem::path(options.a).stem().string();
   if (options.title_b.empty()) options.title_b = std::filesystem::path(options.b).stem().string();
 
   const Comparison comparison = compare(a, b, options.choice);
-  if (!options.html.empty())
-    write_text_file(options.html, report_html({a, options.title_a}, {b, options.title_b}, comparison));
+  if (options.html)
+    write_text_file(*options.html, report_html({a, options.title_a}, {b, options.title_b}, comparison));
   if (options.json)
     print_json(comparison, options);
   else

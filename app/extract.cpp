@@ -4,8 +4,10 @@
 #include <cmath>
 #include <memory>
 
+#include "app/check_output.h"
 #include "app/command.h"
 #include "app/glob.h"
+#include "app/option_value.h"
 #include "core/error.h"
 #include "solver/recorder.h"
 #include "solver/result_file.h"
@@ -20,10 +22,24 @@ struct Options {
   double every = 0;  ///< [s]; zero: every row
 };
 
+constexpr double kSameInstant = 1e-12;  // [s]
+
+/// Rows further apart than the run is long, or closer than instants can be told apart, are not what was meant.
+void check_step(const ResultFile& file, double every) {
+  const VectorX& time = file.time();
+  const double duration = time.size() > 0 ? time[time.size() - 1] - time[0] : 0;
+  if (every > duration + kSameInstant)
+    throw InputError({"--every", fmt::format("the step is longer than the run of {} s", duration),
+                      fmt::format("{} s", every), "ask for a shorter step"});
+  if (every <= kSameInstant)
+    throw InputError({"--every", fmt::format("instants less than {} s apart count as one", kSameInstant),
+                      fmt::format("{} s", every), "ask for a longer step"});
+}
+
 /// Rows at the multiples of `every`, counted from the first row. Throws InputError when one of them was not
 /// recorded.
 std::vector<Eigen::Index> rows_every(const ResultFile& file, double every) {
-  constexpr double kSameInstant = 1e-12;  // [s]
+  if (every > 0) check_step(file, every);
   const VectorX& time = file.time();
   std::vector<Eigen::Index> rows;
   long next = 0;  // the multiple that must come next, unless the last one comes a second time (a jump)
@@ -88,6 +104,7 @@ void write_extract(const ResultFile& file, const Options& options) {
 }
 
 ExitCode run(const Options& options) {
+  check_output(options.output, {options.input});
   const ResultFile file(options.input);
   write_extract(file, options);
   return kDone;
@@ -103,10 +120,12 @@ void add_extract(CLI::App& app, ExitCode& exit_code) {
   command->add_option("-o,--output", options->output, "file to write")->required();
   command->add_option("--signals", options->globs,
                       "signals to keep, by path: '/tires/*' (several allowed); default all");
-  command->add_option("--every", options->every, "keep rows this far apart: 10ms, 0.01; default every row")
-      ->transform(CLI::AsNumberWithUnit(std::map<std::string, double>{{"s", 1}, {"ms", 1e-3}},
-                                        CLI::AsNumberWithUnit::UNIT_OPTIONAL, "TIME"))
-      ->check(CLI::PositiveNumber);
+  command
+      ->add_option_function<std::string>(
+          "--every",
+          [options](const std::string& text) { options->every = positive_value("--every", text, kTime); },
+          "keep rows this far apart: 10ms, 0.01; default every row")
+      ->type_name("TIME");
   command->footer(
       "The extract is a result file like any other, with the facts about the run but not those about its "
       "execution:\n"

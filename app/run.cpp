@@ -1,12 +1,14 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "app/analysis_options.h"
+#include "app/check_output.h"
 #include "app/command.h"
 #include "models/run_scene.h"
 #include "models/scene_loader.h"
@@ -27,25 +29,66 @@ extern "C" void on_interrupt(int) {
   interrupted = 1;
 }
 
-/// A line that overwrites itself on a terminal, a line a second of nothing elsewhere.
+/// How far the run is, on standard error: on a terminal a line that overwrites itself, elsewhere (a log) a plain line, at
+/// most one a second.
 class Progress {
  public:
-  Progress(double duration, bool shown) : duration_(duration), shown_(shown && isatty(STDERR_FILENO)) {}
+  Progress(double duration, bool wanted)
+      : duration_(duration), wanted_(wanted), terminal_(isatty(STDERR_FILENO) != 0) {}
   ~Progress() {
-    if (shown_) fmt::print(stderr, "\r\033[K");
+    if (percent_ >= 0) fmt::print(stderr, "\r\033[K");
   }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
   void update(double t) {
+    if (!wanted_) return;
+    terminal_ ? overwrite(t) : log(t);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void overwrite(double t) {
     const int percent = static_cast<int>(100 * t / duration_);
-    if (!shown_ || percent == percent_) return;
+    if (percent == percent_) return;
     percent_ = percent;
     fmt::print(stderr, "\r{:3d} %  t = {:.3f} s", percent, t);
   }
 
- private:
+  void log(double t) {
+    const Clock::time_point now = Clock::now();
+    if (now - last_line_ < std::chrono::seconds(1)) return;
+    last_line_ = now;
+    fmt::print(stderr, "t = {:.3g} s of {:.6g} s\n", t, duration_);
+  }
+
   double duration_;
-  bool shown_;
-  int percent_ = -1;
+  bool wanted_, terminal_;
+  int percent_ = -1;                            ///< last shown on the terminal; -1: none
+  Clock::time_point last_line_ = Clock::now();  ///< of the log; a run of less than a second leaves none
 };
+
+/// The scene file and those that it includes, as far as something in the scene comes from them.
+std::vector<std::string> input_files(const std::string& path, const Scene& scene) {
+  std::set<std::string> files{path};
+  const auto note = [&](const Source& where) {
+    if (where.file) files.insert(*where.file);
+  };
+  const auto note_all = [&](const auto&... lists) {
+    const auto note_list = [&](const auto& list) {
+      for (const auto& item : list) note(item.where);
+    };
+    (note_list(lists), ...);
+  };
+  note_all(scene.bodies, scene.joints, scene.springs, scene.loads, scene.tire_models, scene.tires,
+           scene.motions);
+  if (scene.road) note(scene.road->where);
+  if (scene.vehicle) note(scene.vehicle->where);
+  note(scene.analysis.where);
+  note(scene.output.where);
+  return {files.begin(), files.end()};
+}
 
 const char* status_text(TransientSummary::Status status) {
   switch (status) {
@@ -67,8 +110,9 @@ void print_lines(const Options& options, const RunResult& result) {
   if (s.restarts > 0) fmt::print("  restarts at events: {}\n", s.restarts);
   for (const std::string& row : result.redundant_rows)
     fmt::print("  redundant closure row left out: {}\n", row);
-  fmt::print("  CPU {:.3f} s ({:.4f} s per simulated second), results in {}\n", result.cpu_seconds,
-             result.cpu_seconds / std::max(s.t_end, 1e-300), options.output);
+  const std::string rate =
+      s.t_end > 0 ? fmt::format(" ({:.4f} s per simulated second)", result.cpu_seconds / s.t_end) : "";
+  fmt::print("  CPU {:.3f} s{}, results in {}\n", result.cpu_seconds, rate, options.output);
 }
 
 void print_json(const Options& options, const RunResult& result) {
@@ -90,6 +134,7 @@ void print_json(const Options& options, const RunResult& result) {
 
 ExitCode run(const Options& options) {
   const Scene scene = load_scene(options.scene, options.set);
+  check_output(options.output, input_files(options.scene, scene));
   CompiledScene compiled = compile(scene);
   apply(options.analysis, compiled.transient);
 
@@ -98,10 +143,12 @@ ExitCode run(const Options& options) {
   RunResult result;
   {
     Progress progress(compiled.transient.duration, !options.json);
-    result = run_scene(scene, compiled, {options.scene, options.output, options.set, [&](double t) {
-                                           progress.update(t);
-                                           return interrupted == 0;
-                                         }});
+    const auto keep_going = [&](double t) {
+      progress.update(t);
+      return interrupted == 0;
+    };
+    result = run_scene(scene, compiled,
+                       {options.scene, options.output, options.set, keep_going, options.analysis.as_written});
   }
   options.json ? print_json(options, result) : print_lines(options, result);
   if (result.summary.status == TransientSummary::Status::complete) return kDone;

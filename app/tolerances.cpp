@@ -50,14 +50,16 @@ void Tolerances::add(const std::string& glob, const Tolerance& tolerance) {
   rules_.emplace_back(glob, tolerance);
 }
 
-void Tolerances::add(const std::string& rule) {
+std::string Tolerances::add(const std::string& rule) {
   const std::size_t equals = rule.rfind('=');
   if (equals == std::string::npos || equals == 0)
     throw InputError({"--tol", "this is not a tolerance", rule, kRuleRemedy});
   const std::size_t comma = rule.find(',', equals);
   const std::string relative = rule.substr(equals + 1, comma - equals - 1);
   const double absolute = comma == std::string::npos ? 0 : number_in_rule(rule.substr(comma + 1), rule);
-  add(rule.substr(0, equals), {number_in_rule(relative, rule), absolute});
+  const std::string glob = rule.substr(0, equals);
+  add(glob, {number_in_rule(relative, rule), absolute});
+  return glob;
 }
 
 void Tolerances::load(const std::string& yaml_path) {

@@ -20,8 +20,8 @@ class Tolerances {
  public:
   /// Throws InputError when a tolerance is negative or not finite.
   void add(const std::string& glob, const Tolerance& tolerance);
-  /// Adds the rule "GLOB=RELATIVE[,ABSOLUTE]"; ABSOLUTE is 0 when left out.
-  void add(const std::string& rule);
+  /// Adds the rule "GLOB=RELATIVE[,ABSOLUTE]"; ABSOLUTE is 0 when left out. Returns GLOB.
+  std::string add(const std::string& rule);
   /// Adds the rules of a YAML file in its order: a map from patterns to {relative: R, absolute: A}, of which
   /// either may be left out (then it is 0). Throws InputError with the line for everything else.
   void load(const std::string& yaml_path);

@@ -19,6 +19,10 @@
 /// row-major.
 namespace wishbone::hdf5 {
 
+/// Keeps the library from closing at exit what is still open: it crashes on a file whose closing failed (disk full), and here
+/// every identifier has an owner that closes it. For main(), before any other use of the library.
+void leave_out_exit_handler();
+
 /// Owner of one HDF5 identifier: closes it when it goes out of scope. Movable, not copyable.
 class Handle {
  public:

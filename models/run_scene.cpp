@@ -21,6 +21,7 @@ void record_facts(const Scene& scene, const RunRequest& request, const RunResult
   recorder.set_meta("title", scene.title);
   recorder.set_meta("scene", scene.text);
   recorder.set_meta("overrides", request.overrides);
+  recorder.set_meta("command_line", request.command_line);
   recorder.set_meta("version", std::string(kVersion));
   recorder.set_meta("git_revision", std::string(kGitRevision));
   recorder.set_meta("compiler", std::string(kCompiler));
@@ -59,11 +60,22 @@ Outcome outcome(TransientSummary::Status status) {
   return Outcome::kFailed;
 }
 
+/// Finds out on a copy of the initial state whether the run can start at all, so that no file is made in vain and no
+/// earlier one replaced.
+/// @throws InputError when form and integrator do not fit the system or the state cannot be assembled
+void check_start(const CompiledScene& compiled) {
+  resolve(compiled.transient.integrator, compiled.system);
+  State state = compiled.initial;
+  Workspace ws(compiled.system);
+  assemble(compiled.system, state, ws);
+}
+
 }  // namespace
 
 RunResult run_scene(const Scene& scene, const CompiledScene& compiled, const RunRequest& request) {
   const auto wall_start = std::chrono::steady_clock::now();
   const std::clock_t cpu_start = std::clock();
+  check_start(compiled);
   RunResult result;
   Workspace ws(compiled.system);
   Observer observer(compiled.system, compiled.observer);

@@ -14,6 +14,8 @@ struct RunRequest {
   std::string output_path;
   std::vector<std::string> overrides;      ///< "name=value" for the scene's parameters, kept with the results
   std::function<bool(double)> keep_going;  ///< asked with the time after every step; false interrupts the run
+  std::vector<std::string> command_line =
+      {};  ///< what was said instead of the scene's analysis, as written; kept too
 };
 
 /// What the run came to, for the terminal and for machines.
@@ -26,7 +28,8 @@ struct RunResult {
 
 /// Runs the compiled scene and streams every signal to the results file. A run that fails keeps what it computed; the file
 /// says so in its status.
-/// @throws InputError when the scene cannot be assembled, NumericsError when the file cannot be written
+/// @throws InputError when form and integrator do not fit the scene or it cannot be assembled: then no file is made and one
+///   of that name stays as it is; NumericsError when the file cannot be written
 RunResult run_scene(const Scene& scene, const CompiledScene& compiled, const RunRequest& request);
 
 }  // namespace wishbone

@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <sys/wait.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -17,6 +19,8 @@ namespace wishbone {
 namespace {
 
 using testing::AllOf;
+using testing::ContainsRegex;
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 struct Answer {
@@ -24,14 +28,22 @@ struct Answer {
   std::string text;  ///< standard output and error
 };
 
-Answer call(const std::string& arguments) {
-  FILE* pipe = popen((std::string(WISHBONE_COMMAND) + " " + arguments + " 2>&1").c_str(), "r");
+/// `before` is what the shell does first, in the process of the command.
+Answer call(const std::string& arguments, const std::string& before = ":") {
+  const std::string line =
+      "{ " + before + "; } && exec " + std::string(WISHBONE_COMMAND) + " " + arguments + " 2>&1";
+  FILE* pipe = popen(line.c_str(), "r");
   Answer answer;
   char buffer[4096];
   while (const std::size_t n = fread(buffer, 1, sizeof buffer, pipe)) answer.text.append(buffer, n);
   const int status = pclose(pipe);
   if (WIFEXITED(status)) answer.code = WEXITSTATUS(status);
   return answer;
+}
+
+std::string bytes(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return (std::ostringstream() << file.rdbuf()).str();
 }
 
 class CommandTest : public testing::Test {
@@ -59,6 +71,8 @@ TEST_F(CommandTest, HelpOfEveryCommandHasAnExample) {
 TEST_F(CommandTest, BadInputGivesTwo) {
   EXPECT_EQ(call("").code, 2);
   EXPECT_EQ(call("fly").code, 2);
+  EXPECT_THAT(call("rnu").text, AllOf(HasSubstr("wishbone: error: no such command (got 'rnu')"),
+                                      HasSubstr("did you mean 'run'?")));
   EXPECT_EQ(call("info").code, 2);
   EXPECT_THAT(call("info " + (folder_ / "absent.h5")).text, HasSubstr("absent.h5: error: no such file"));
   EXPECT_EQ(call("info " + (folder_ / "absent.h5")).code, 2);
@@ -67,9 +81,13 @@ TEST_F(CommandTest, BadInputGivesTwo) {
   EXPECT_EQ(call("compare " + a() + " " + b() + " --signals '/nothing*'").code, 2);
 }
 
-TEST_F(CommandTest, FailureToWriteGivesThree) {
-  EXPECT_EQ(call("extract " + a() + " -o /nowhere/base.h5").code, 3);
-  EXPECT_EQ(call("compare " + a() + " " + b() + " --html /nowhere/report.html").code, 3);
+TEST_F(CommandTest, ADiskThatRunsFullGivesThree) {
+  const std::string full_at_512_bytes = "trap '' XFSZ; ulimit -f 1";
+  const Answer extract = call("extract " + a() + " -o " + (folder_ / "base.h5"), full_at_512_bytes);
+  EXPECT_EQ(extract.code, 3) << extract.text;
+  const Answer page =
+      call("compare " + a() + " " + b() + " --html " + (folder_ / "r.html"), full_at_512_bytes);
+  EXPECT_EQ(page.code, 3) << page.text;
 }
 
 TEST_F(CommandTest, CheckGivesZeroWithinAndOneBeyondTheTolerance) {
@@ -123,6 +141,139 @@ TEST_F(CommandTest, ExtractRefusesInstantsThatWereNotRecorded) {
   const Answer answer = call("extract " + a() + " -o " + (folder_ / "base.h5") + " --every 0.5");
   EXPECT_EQ(answer.code, 2);
   EXPECT_THAT(answer.text, HasSubstr("0.5 s"));
+}
+
+TEST_F(CommandTest, ExtractRefusesAStepLongerThanTheRun) {
+  EXPECT_THAT(call("extract " + a() + " -o " + (folder_ / "base.h5") + " --every '5 s'").text,
+              HasSubstr("the step is longer than the run of 4 s"));
+  EXPECT_EQ(call("extract " + a() + " -o " + (folder_ / "base.h5") + " --every 1e-25").code, 2);
+  EXPECT_EQ(call("extract " + a() + " -o " + (folder_ / "base.h5") + " --every 4000ms").code, 0);
+}
+
+TEST_F(CommandTest, ToleranceOfTheCommandLineThatTouchesNoSignalIsRefused) {
+  const std::string same = "check " + a() + " --against " + a();
+  const Answer answer = call(same + " --tol '/gruop/scalar=1e-12'");
+  EXPECT_EQ(answer.code, 2);
+  EXPECT_THAT(answer.text, AllOf(HasSubstr("'/gruop/scalar'"), HasSubstr("did you mean '/group/scalar'?")));
+  std::ofstream(folder_ / "t.yaml") << "\"/of another car/*\": {absolute: 0.6}\n";
+  EXPECT_EQ(call(same + " --tolerances " + (folder_ / "t.yaml")).code, 0);
+}
+
+TEST_F(CommandTest, OutputThatCannotBeWrittenOrIsAnInputIsRefusedFirst) {
+  std::filesystem::create_directory(folder_ / "folder");
+  std::filesystem::create_symlink(a(), folder_ / "also_a.h5");
+  std::filesystem::copy(a(), folder_ / "c.h5.partial");
+  const std::string before = bytes(a());
+  for (const std::string& output :
+       {std::string("''"), folder_ / "absent/x", folder_ / "folder", std::string("/dev/full"), a(),
+        folder_ / "also_a.h5", folder_ / "folder/../a.h5", folder_ / std::string(300, 'x')}) {
+    EXPECT_EQ(call("extract " + a() + " -o " + output).code, 2) << output;
+    EXPECT_EQ(call("compare " + b() + " " + a() + " --html " + output).code, 2) << output;
+    EXPECT_EQ(call("check " + b() + " --against " + a() + " --junit " + output).code, 2) << output;
+  }
+  EXPECT_EQ(call("extract " + (folder_ / "c.h5.partial") + " -o " + (folder_ / "c.h5")).code, 2);
+  EXPECT_EQ(bytes(a()), before);
+  EXPECT_EQ(bytes(folder_ / "c.h5.partial"), before);
+}
+
+/// A scene that includes its bodies, and a results file that is worth keeping.
+class RunCommandTest : public CommandTest {
+ protected:
+  RunCommandTest() {
+    std::ofstream(scene()) << R"(
+wishbone: 1
+include: rod.yaml
+joints:
+  pin: {type: revolute, bodies: [ground, rod], at: [0, 0, 0], axis: [0, 1, 0], position: 60 deg}
+analysis: {duration: 1 s}
+output: {interval: 10 ms}
+)";
+    std::ofstream(folder_ / "rod.yaml")
+        << "bodies: {rod: {mass: 2 kg, inertia: [0.135, 0.135, 0.001], position: [0, 0, -0.45]}}\n";
+  }
+  std::string scene() const { return folder_ / "scene.yaml"; }
+  Answer run(const std::string& arguments) const { return call("run " + scene() + " " + arguments); }
+};
+
+TEST_F(RunCommandTest, BadInputLeavesEarlierResultsAsTheyAre) {
+  const std::string before = bytes(a());
+  const std::string open_loop = folder_ / "open.yaml";
+  std::ofstream(open_loop) << R"(
+wishbone: 1
+include: rod.yaml
+motions:
+  turn: {start: 60 deg}
+joints:
+  pin: {type: revolute, bodies: [ground, rod], at: [0, 0, 0], axis: [0, 1, 0], motion: turn}
+  far: {type: spherical, cut: true, bodies: [ground, rod], at: [0, 0, -0.9]}
+analysis: {duration: 1 s}
+)";
+  EXPECT_EQ(run("-o " + a() + " --form ggl --integrator adams").code, 2);
+  const Answer answer = call("run " + open_loop + " -o " + a());
+  EXPECT_EQ(answer.code, 2);
+  EXPECT_THAT(answer.text, HasSubstr("cut joint 'far"));
+  EXPECT_EQ(bytes(a()), before);
+  EXPECT_FALSE(std::filesystem::exists(a() + ".partial"));
+}
+
+TEST_F(RunCommandTest, OutputMayNotReplaceTheSceneNorWhatItIncludes) {
+  for (const std::string name : {"scene.yaml", "rod.yaml"}) {
+    const std::string before = bytes(folder_ / name);
+    EXPECT_THAT(run("-o " + (folder_ / name)).text, HasSubstr("the output would replace an input")) << name;
+    EXPECT_EQ(bytes(folder_ / name), before);
+  }
+  EXPECT_EQ(run("-o ''").code, 2);
+  EXPECT_EQ(run("-o /dev/full").code, 2);
+}
+
+TEST_F(RunCommandTest, AnalysisOptionsHaveTheLimitsOfTheScene) {
+  const std::vector<std::pair<std::string, std::string>> bad{
+      {"--rtol 0.2", "--rtol: error: the relative tolerance is too coarse to mean anything (got '0.2')"},
+      {"--rtol 0", "--rtol: error: the value must be greater than 0 (got '0')"},
+      {"--rtol nan", "--rtol: error: not a finite number (got 'nan')"},
+      {"--atol -1", "--atol: error: the value must be greater than 0 (got '-1')"},
+      {"--atol 1e999", "--atol: error: the number does not fit a double"},
+      {"--until 0", "--until: error: the value must be greater than 0 (got '0')"},
+      {"--until 5kg", "--until: error: wrong dimension"},
+      {"--until 1e9", "--until: error: the run would have more than ten million outputs"},
+      {"--form 2", "the integration forms are: auto, ode, index1, ggl"},
+      {"--form gll", "did you mean 'ggl'?"},
+      {"--integrator bfd", "did you mean 'bdf'?"}};
+  for (const auto& [option, message] : bad) {
+    const Answer answer = run("-o " + (folder_ / "out.h5") + " " + option);
+    EXPECT_EQ(answer.code, 2) << option;
+    EXPECT_THAT(answer.text, HasSubstr(message));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "out.h5"));
+  }
+}
+
+TEST_F(RunCommandTest, UntilTakesUnitsAndCutsTheIntervalOfOutputs) {
+  EXPECT_EQ(run("-o " + (folder_ / "out.h5") + " --until '0.2 s'").code, 0);
+  EXPECT_EQ(ResultFile(folder_ / "out.h5").time().size(), 21);
+  EXPECT_EQ(run("-o " + (folder_ / "out.h5") + " --until 5ms").code, 0);
+  const VectorX time = ResultFile(folder_ / "out.h5").time();
+  ASSERT_EQ(time.size(), 2);
+  EXPECT_EQ(time[1], 0.005);
+}
+
+TEST_F(RunCommandTest, MetaTellsWhatWasAskedAndWhatWasUsed) {
+  EXPECT_EQ(run("-o " + (folder_ / "out.h5") + " --until 5ms --rtol 1e-4 --form auto").code, 0);
+  const auto meta = ResultFile(folder_ / "out.h5").meta();
+  EXPECT_THAT(std::get<std::vector<std::string>>(meta.at("command_line")),
+              ElementsAre("--form auto", "--rtol 1e-4", "--until 5ms"));
+  EXPECT_EQ(std::get<std::string>(meta.at("form")), "ode");
+  EXPECT_EQ(std::get<double>(meta.at("rtol")), 1e-4);
+}
+
+TEST_F(RunCommandTest, InterruptedRunTellsItsProgressInALogAndGivesThree) {
+  const std::string interrupt_after_two_seconds = "(sleep 2.5; kill -INT $$) >/dev/null 2>&1 & true";
+  const Answer answer = call("run " + scene() + " -o " + (folder_ / "out.h5") + " --until '50000 s'",
+                             interrupt_after_two_seconds);
+  EXPECT_EQ(answer.code, 3);
+  EXPECT_THAT(answer.text,
+              AllOf(ContainsRegex("t = [0-9.e+]+ s of 50000 s\n"), HasSubstr("interrupted at t =")));
+  EXPECT_LE(std::count(answer.text.begin(), answer.text.end(), '\n'), 12) << answer.text;
+  EXPECT_EQ(ResultFile(folder_ / "out.h5").status(), "interrupted");
 }
 
 TEST_F(CommandTest, InfoTellsWhatIsInAFile) {

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace wishbone {
+
+/// Refuses, before anything is computed, a file to be written that could not be written or would destroy an input.
+/// @throws InputError when `path` is empty, its folder is missing or read-only, something other than a writable file has the
+///   name (a folder, a device), or the name (or the one that results bear while they are written, PATH.partial) is that of
+///   one of `inputs`, by whatever path; inputs that do not exist are passed over
+void check_output(const std::string& path, const std::vector<std::string>& inputs);
+
+}  // namespace wishbone
