@@ -104,7 +104,7 @@ const char* status_text(TransientSummary::Status status) {
 
 void print_lines(const Options& options, const RunResult& result) {
   const TransientSummary& s = result.summary;
-  fmt::print("{}: {} to t = {:.6g} s, form {}, integrator {}\n", options.scene, status_text(s.status),
+  fmt::print("{}: {} at t = {:.6g} s, form {}, integrator {}\n", options.scene, status_text(s.status),
              s.t_end, to_string(s.integrator.form), to_string(s.integrator.method));
   for (const auto& [name, value] : s.statistics) fmt::print("  {}: {}\n", name, value);
   if (s.restarts > 0) fmt::print("  restarts at events: {}\n", s.restarts);
