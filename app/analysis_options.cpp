@@ -78,4 +78,11 @@ void apply(const AnalysisOptions& options, TransientOptions& transient) {
                       "end the run earlier, or give the scene a longer output.interval"});
 }
 
+void add_scene_arguments(CLI::App& command, std::string& scene, std::vector<std::string>& set) {
+  command.add_option("SCENE", scene, "scene file (YAML)")->required();
+  command.add_option("--set", set, "NAME=VALUE: another value for a parameter of the scene; may be repeated")
+      ->type_name("NAME=VALUE")
+      ->take_all();
+}
+
 }  // namespace wishbone

@@ -27,4 +27,7 @@ void add_analysis_options(CLI::App& command, AnalysisOptions& options);
 /// @throws InputError when there would be more outputs than a scene may ask for
 void apply(const AnalysisOptions& options, TransientOptions& transient);
 
+/// Adds the argument SCENE and the option --set, which overrides parameters of the scene.
+void add_scene_arguments(CLI::App& command, std::string& scene, std::vector<std::string>& set);
+
 }  // namespace wishbone

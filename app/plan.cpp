@@ -77,12 +77,7 @@ ExitCode run(const Options& options) {
 void add_plan(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("plan", "Tell what a scene is compiled to, and what is left out");
-  command->add_option("SCENE", options->scene, "scene file (YAML)")->required();
-  command
-      ->add_option("--set", options->set,
-                   "NAME=VALUE: another value for a parameter of the scene; may be repeated")
-      ->type_name("NAME=VALUE")
-      ->take_all();
+  add_scene_arguments(*command, options->scene, options->set);
   add_analysis_options(*command, options->analysis);
   command->add_flag("--json", options->json, "print JSON");
   command->footer("Example:\n  wishbone plan models/scenes/impulse_steer.yaml --set chassis=rigid");

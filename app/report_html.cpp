@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "app/base64.h"
+#include "app/markup.h"
 #include "app/meta_text.h"
 #include "app/table.h"
 
@@ -23,27 +24,6 @@ extern const std::string_view report_js;
 }  // namespace embedded
 
 namespace {
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  return out;
-}
 
 /// Fills the places {{name}} of the page in one pass, so that what is filled in is not searched again.
 std::string filled(std::string_view page, const std::map<std::string, std::string, std::less<>>& places) {
@@ -143,8 +123,8 @@ std::string difference_row(const Section::Entry& entry, const Difference& d) {
     cells += fmt::format("<td>{}</td>", brief(unit.factor * value));
   const std::string share = scale > 0 ? fmt::format("{:.2g} %", 100 * d.max_difference / scale) : "0 %";
   return fmt::format("<tr><td>{}<small>{}</small></td><td class=unit>{}</td>{}<td>{}</td><td>{}</td></tr>\n",
-                     escaped(entry.title), escaped(d.channel.text()), escaped(unit.name), cells, share,
-                     brief(d.time_of_maximum));
+                     escape_markup(entry.title), escape_markup(d.channel.text()), escape_markup(unit.name),
+                     cells, share, brief(d.time_of_maximum));
 }
 
 std::string difference_table(const Comparison& comparison) {
@@ -154,7 +134,7 @@ std::string difference_table(const Comparison& comparison) {
     for (const Section::Entry& entry : section.entries)
       if (const Difference* d = find(comparison, entry.channel)) of_section += difference_row(entry, *d);
     if (!of_section.empty())
-      rows += fmt::format("<tr class=heading><th colspan=8>{}</th></tr>\n", escaped(section.heading)) +
+      rows += fmt::format("<tr class=heading><th colspan=8>{}</th></tr>\n", escape_markup(section.heading)) +
               of_section;
   }
   return rows;
@@ -176,7 +156,7 @@ std::string notes(const ReportedFile& a, const ReportedFile& b, const Comparison
   list("Only in " + b.title, comparison.only_in_b);
   list("Not comparable", comparison.incomparable);
   std::string html;
-  for (const std::string& line : lines) html += "<li>" + escaped(line) + "</li>\n";
+  for (const std::string& line : lines) html += "<li>" + escape_markup(line) + "</li>\n";
   return html;
 }
 
@@ -184,9 +164,9 @@ std::string meta_cell(const std::map<std::string, hdf5::Value>& meta, const std:
   const auto found = meta.find(name);
   if (found == meta.end()) return "<td class=none>none</td>";
   const std::string text = text_of(found->second);
-  if (text.find('\n') == std::string::npos) return "<td>" + escaped(text) + "</td>";
+  if (text.find('\n') == std::string::npos) return "<td>" + escape_markup(text) + "</td>";
   return fmt::format("<td><details><summary>{} lines</summary><pre>{}</pre></details></td>",
-                     std::count(text.begin(), text.end(), '\n'), escaped(text));
+                     std::count(text.begin(), text.end(), '\n'), escape_markup(text));
 }
 
 /// Facts of both runs side by side; rows in which they differ are marked.
@@ -199,7 +179,7 @@ std::string meta_rows(const std::map<std::string, hdf5::Value>& a,
     const std::string cell_a = meta_cell(a, name);
     const std::string cell_b = meta_cell(b, name);
     rows += fmt::format("<tr{}><th>{}</th>{}{}</tr>\n", cell_a == cell_b ? "" : " class=differs",
-                        escaped(name), cell_a, cell_b);
+                        escape_markup(name), cell_a, cell_b);
   }
   return rows;
 }
@@ -216,11 +196,11 @@ std::string report_html(const ReportedFile& a, const ReportedFile& b, const Comp
                                         {"dygraph_js", without_map(embedded::dygraph_js)},
                                         {"report_css", std::string(embedded::report_css)},
                                         {"report_js", std::string(embedded::report_js)},
-                                        {"title_a", escaped(a.title)},
-                                        {"title_b", escaped(b.title)},
-                                        {"file_a", escaped(a.file.path())},
-                                        {"file_b", escaped(b.file.path())},
-                                        {"compared", escaped(comparison.common_time.text())},
+                                        {"title_a", escape_markup(a.title)},
+                                        {"title_b", escape_markup(b.title)},
+                                        {"file_a", escape_markup(a.file.path())},
+                                        {"file_b", escape_markup(b.file.path())},
+                                        {"compared", escape_markup(comparison.common_time.text())},
                                         {"notes", notes(a, b, comparison)},
                                         {"differences", difference_table(comparison)},
                                         {"meta", meta_rows(a.file.meta(), b.file.meta())},

@@ -161,13 +161,8 @@ ExitCode run(const Options& options) {
 void add_run(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("run", "Run a scene and write its results");
-  command->add_option("SCENE", options->scene, "scene file (YAML)")->required();
+  add_scene_arguments(*command, options->scene, options->set);
   command->add_option("-o,--output", options->output, "results file (HDF5)")->required();
-  command
-      ->add_option("--set", options->set,
-                   "NAME=VALUE: another value for a parameter of the scene; may be repeated")
-      ->type_name("NAME=VALUE")
-      ->take_all();
   add_analysis_options(*command, options->analysis);
   command->add_flag("--json", options->json, "print JSON");
   command->footer(

@@ -37,7 +37,7 @@ double largest_kept(const VectorX& r, const Workspace& ws) {
 /// displacement = M^-1 D^T lambda. Needs factor_inertia.
 void calc_displacement(const System& system, Workspace& ws) {
   ++ws.work.projections;
-  clear_loads(system, ws);
+  clear_loads(ws);
   add_closure_loads(system, ws.lambda, ws);
   solve_accelerations(system, Terms::loads_only, ws, ws.displacement);
 }

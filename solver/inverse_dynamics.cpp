@@ -80,7 +80,7 @@ void calc_motion_residual(const System& system, const State& state, const Vector
 }
 
 void calc_closure_force(const System& system, const VectorX& mu, Workspace& ws, Eigen::Ref<VectorX> force) {
-  clear_loads(system, ws);
+  clear_loads(ws);
   add_closure_loads(system, mu, ws);
   for (std::size_t i = 0; i < system.bodies.size(); ++i) {
     const TreeBody& body = system.bodies[i];

@@ -26,14 +26,14 @@ ForceInput force_input(double t, const VectorX& x, int x_start, int state_count,
   return {t, ws.markers, {x.data() + x_start, static_cast<std::size_t>(state_count)}, ws.segments[index]};
 }
 
-void clear_loads(const System& /*system*/, Workspace& ws) {
+void clear_loads(Workspace& ws) {
   for (BodyState& s : ws.bodies) s.F_applied.setZero();
   for (FlexibleState& f : ws.flexible) f.load.setZero();
 }
 
 void apply_forces(const System& system, double t, const VectorX& x, Workspace& ws) {
   ++ws.work.forces;
-  clear_loads(system, ws);
+  clear_loads(ws);
   for (Wrench& w : ws.wrenches) w = Wrench{};
 
   int x_start = 0;

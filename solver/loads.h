@@ -27,7 +27,7 @@ ForceInput force_input(double t, const VectorX& x, int x_start, int state_count,
 void apply_forces(const System& system, double t, const VectorX& x, Workspace& ws);
 
 /// Sets all applied loads to zero.
-void clear_loads(const System& system, Workspace& ws);
+void clear_loads(Workspace& ws);
 
 /// Adds W_A lambda and W_B lambda of every closure to the loads.
 void add_closure_loads(const System& system, const VectorX& lambda, Workspace& ws);
