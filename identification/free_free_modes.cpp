@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "identification/methods/modes.h"
 
 namespace wishbone {
 namespace {
@@ -30,17 +31,6 @@ void check_input(const std::vector<int>& node_ids, const VectorX& node_mass, con
     reject("the stiffness matrix must be symmetric",
            fmt::format("asymmetry {:.3g}", asymmetry / stiffness.norm()),
            "take its symmetric part if the difference is noise");
-}
-
-/// Largest component positive; components that are equal but for rounding count as tied and the first
-/// decides.
-void fix_sign(Eigen::Ref<VectorX> shape) {
-  const double nearly_largest = (1 - 1e-6) * shape.cwiseAbs().maxCoeff();
-  for (double component : shape) {
-    if (std::abs(component) < nearly_largest) continue;
-    if (component < 0) shape = -shape;
-    return;
-  }
 }
 
 }  // namespace
@@ -79,7 +69,7 @@ ModeSet free_free_modes(const std::vector<int>& node_ids, const VectorX& node_ma
 
   ModeSet set{node_ids, node_mass, s, lambda.cwiseSqrt(), MatrixX(), VectorX::Zero(elastic_count)};
   set.shapes = inverse_root_mass.asDiagonal() * (Q * eigen.eigenvectors());
-  for (auto shape : set.shapes.colwise()) fix_sign(shape);
+  fix_signs(set.shapes);
   return set;
 }
 

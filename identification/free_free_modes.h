@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bodies/mode_set.h"
-#include "identification/hexahedral_mesh.h"
+#include "identification/elements/hexahedral_mesh.h"
 
 namespace wishbone {
 

@@ -2,8 +2,8 @@
 
 #include <utility>
 
+#include "identification/elements/hexahedral_mesh.h"
 #include "identification/free_free_modes.h"
-#include "identification/hexahedral_mesh.h"
 #include "solver/system_builder.h"
 
 namespace wishbone {

@@ -1,7 +1,7 @@
 // Laws that any displacement element must keep, on the patch of R. H. MacNeal and R. L. Harder, "A proposed
 // standard set of problems to test finite element accuracy", Finite Elements in Analysis and Design 1, 1985.
 
-#include "identification/hexahedron.h"
+#include "identification/elements/hexahedron.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <numeric>
 
 #include "core/error.h"
-#include "identification/hexahedral_mesh.h"
+#include "identification/elements/hexahedral_mesh.h"
 
 namespace wishbone {
 namespace {

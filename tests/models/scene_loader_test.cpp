@@ -9,7 +9,7 @@
 #include <set>
 #include <string>
 
-#include "identification/hexahedral_mesh.h"
+#include "identification/elements/hexahedral_mesh.h"
 #include "models/scene_sections.h"
 #include "text_files.h"
 

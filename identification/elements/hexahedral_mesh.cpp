@@ -1,4 +1,4 @@
-#include "identification/hexahedral_mesh.h"
+#include "identification/elements/hexahedral_mesh.h"
 
 #include <fmt/format.h>
 

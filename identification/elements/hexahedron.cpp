@@ -1,4 +1,4 @@
-#include "identification/hexahedron.h"
+#include "identification/elements/hexahedron.h"
 
 #include <fmt/format.h>
 

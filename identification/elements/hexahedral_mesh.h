@@ -3,7 +3,7 @@
 #include <Eigen/Sparse>
 #include <vector>
 
-#include "identification/hexahedron.h"
+#include "identification/elements/hexahedron.h"
 
 namespace wishbone {
 

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Sparse>
+
+#include "core/spatial.h"
+
+namespace wishbone {
+
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+/// Modes as plain matrices, what every method of identification takes and gives.
+struct Modes {
+  VectorX lambda;  ///< m, omega^2, ascending [rad2/s2]
+  MatrixX shapes;  ///< n x m, Psi
+
+  Eigen::Index count() const { return lambda.size(); }
+  /// [Hz]; a lambda that rounding made negative counts as zero.
+  VectorX frequency_hz() const;
+  Modes lowest(Eigen::Index count) const { return {lambda.head(count), shapes.leftCols(count)}; }
+};
+
+/// diag(Psi^T M Psi): the modal masses [2.7].
+VectorX modal_masses(const MatrixX& shapes, const SparseMatrix& M);
+
+/// The same modes scaled to unit modal mass. Throws InputError if a modal mass is not positive.
+Modes mass_normalised(const Modes& modes, const SparseMatrix& M);
+
+/// M = diag(m_i 1) over three freedoms a node [kg].
+SparseMatrix lumped_mass_matrix(const VectorX& node_mass);
+
+/// diag(d).
+SparseMatrix diagonal_matrix(const VectorX& d);
+
+/// Solves K x = lambda M x for symmetric dense K and M, M positive definite: modes of unit modal mass, the
+/// largest component of each positive.
+Modes solve_eigenproblem(const MatrixX& K, const MatrixX& M);
+
+/// Makes the largest component of every column positive; of components that are equal but for rounding the
+/// first decides.
+void fix_signs(MatrixX& shapes);
+
+}  // namespace wishbone
