@@ -24,11 +24,12 @@ void check_sizes(const ModalData& data) {
                     data.shapes.rows() == r && data.shapes.cols() == m && data.damping_ratio.size() == m &&
                     data.modal_mass.size() == m;
   if (!fits)
-    reject(fmt::format("{} nodes, {} freedoms and {} modes need as many positions, rows and columns", n, r, m),
-           fmt::format("{} positions, {} masses, {} x {} shapes, {} damping ratios, {} modal masses",
-                       data.node_position.cols(), data.node_mass.size(), data.shapes.rows(),
-                       data.shapes.cols(), data.damping_ratio.size(), data.modal_mass.size()),
-           "give every node, freedom and mode its share");
+    reject(
+        fmt::format("{} nodes, {} freedoms and {} modes need as many positions, rows and columns", n, r, m),
+        fmt::format("{} positions, {} masses, {} x {} shapes, {} damping ratios, {} modal masses",
+                    data.node_position.cols(), data.node_mass.size(), data.shapes.rows(), data.shapes.cols(),
+                    data.damping_ratio.size(), data.modal_mass.size()),
+        "give every node, freedom and mode its share");
 }
 
 void check_names(const ModalData& data) {
