@@ -41,25 +41,32 @@ SparseMatrix lumped_mass_matrix(const VectorX& node_mass) {
 }
 
 Modes solve_eigenproblem(const MatrixX& K, const MatrixX& M) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixX> eigen(K, M);
-  if (eigen.info() != Eigen::Success)
+  // Eigen's solver does not look whether its factorisation of M succeeded
+  if (Eigen::LLT<MatrixX>(M).info() != Eigen::Success)
     throw InputError({"eigenproblem", "the mass matrix must be positive definite",
-                      fmt::format("{} freedoms", M.rows()),
-                      "look for massless freedoms, or for modes that are linearly dependent"});
+                      fmt::format("{} x {}", M.rows(), M.cols()),
+                      "look for massless freedoms, or for more mass taken away than there is"});
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixX> eigen(K, M);
   Modes modes{eigen.eigenvalues(), eigen.eigenvectors()};
   fix_signs(modes.shapes);
   return modes;
 }
 
-void fix_signs(MatrixX& shapes) {
-  for (auto shape : shapes.colwise()) {
-    const double nearly_largest = (1 - 1e-6) * shape.cwiseAbs().maxCoeff();
-    for (const double component : shape) {
+VectorX dominant_signs(const MatrixX& shapes) {
+  VectorX signs = VectorX::Ones(shapes.cols());
+  for (Eigen::Index j = 0; j < shapes.cols(); ++j) {
+    const double nearly_largest = (1 - 1e-6) * shapes.col(j).cwiseAbs().maxCoeff();
+    for (const double component : shapes.col(j)) {
       if (std::abs(component) < nearly_largest) continue;
-      if (component < 0) shape = -shape;
+      if (component < 0) signs[j] = -1;
       break;
     }
   }
+  return signs;
+}
+
+void fix_signs(MatrixX& shapes) {
+  shapes *= dominant_signs(shapes).asDiagonal();
 }
 
 }  // namespace wishbone

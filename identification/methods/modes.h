@@ -32,11 +32,14 @@ SparseMatrix lumped_mass_matrix(const VectorX& node_mass);
 SparseMatrix diagonal_matrix(const VectorX& d);
 
 /// Solves K x = lambda M x for symmetric dense K and M, M positive definite: modes of unit modal mass, the
-/// largest component of each positive.
+/// largest component of each positive. Throws InputError if M is not positive definite.
 Modes solve_eigenproblem(const MatrixX& K, const MatrixX& M);
 
-/// Makes the largest component of every column positive; of components that are equal but for rounding the
-/// first decides.
+/// +1 or -1 for every column: the sign of its largest component; of components that are equal but for rounding
+/// the first decides.
+VectorX dominant_signs(const MatrixX& shapes);
+
+/// Makes the largest component of every column positive.
 void fix_signs(MatrixX& shapes);
 
 }  // namespace wishbone
