@@ -34,16 +34,17 @@ MatrixX expand_serep(const MatrixX& model_shapes, const std::vector<int>& measur
   Phi_m.setThreshold(1e-9);
   Phi_m.compute(model_shapes(measured, Eigen::all));
   if (Phi_m.rank() < model_shapes.cols())
-    throw InputError({"expansion", "the measured freedoms must tell the modes of the model apart",
-                      fmt::format("{} freedoms, rank {} of {} modes", measured.size(), Phi_m.rank(),
-                                  model_shapes.cols()),
-                      "measure more freedoms, or expand with fewer modes of the model"});
+    throw InputError(
+        {"expansion", "the measured freedoms must tell the modes of the model apart",
+         fmt::format("{} freedoms, rank {} of {} modes", measured.size(), Phi_m.rank(), model_shapes.cols()),
+         "measure more freedoms, or expand with fewer modes of the model"});
   return model_shapes * Phi_m.solve(shapes);
 }
 
 MatrixX static_transformation(const SparseMatrix& K, const std::vector<int>& masters) {
   const Eigen::Index n = K.rows(), r = static_cast<Eigen::Index>(masters.size());
-  std::vector<int> master_place(static_cast<std::size_t>(n), -1), slave_place(static_cast<std::size_t>(n), -1);
+  std::vector<int> master_place(static_cast<std::size_t>(n), -1),
+      slave_place(static_cast<std::size_t>(n), -1);
   for (std::size_t i = 0; i < masters.size(); ++i)
     master_place[static_cast<std::size_t>(masters[i])] = static_cast<int>(i);
   int slaves = 0;
@@ -55,7 +56,8 @@ MatrixX static_transformation(const SparseMatrix& K, const std::vector<int>& mas
   if (slaves == 0) return T;
   const Eigen::SimplicialLLT<SparseMatrix> K_ss(block(K, slave_place, slaves, slave_place, slaves));
   if (K_ss.info() != Eigen::Success)
-    throw InputError({"expansion", "the measured freedoms must hold the structure, for the others follow statically",
+    throw InputError({"expansion",
+                      "the measured freedoms must hold the structure, for the others follow statically",
                       fmt::format("{} of {} freedoms", r, n),
                       "measure freedoms that stop every rigid-body motion, or expand by SEREP"});
   const MatrixX K_sm(block(K, slave_place, slaves, master_place, r));

@@ -30,6 +30,21 @@ void check_mode_count(Eigen::Index modes, Eigen::Index rank) {
                     fmt::format("{} modes", modes), "give more modes than joint directions"});
 }
 
+/// T^T M Psi = M Psi - D^T (D Psi_0)^+T Psi_0^T M Psi: inertia forces of the modes, balanced by the joints.
+MatrixX forces_of_free_structure(const Modes& unit, const SparseMatrix& M, const SparseMatrix& D,
+                                 const MatrixX& rigid) {
+  const int rank = held_rigid_freedoms(D, rigid);
+  if (rank < rigid.cols())
+    throw InputError({"joints",
+                      fmt::format("the joints hold {} of {} rigid-body motions", rank, rigid.cols()),
+                      fmt::format("{} joint directions", D.rows()),
+                      "the stiffness against the ground says nothing about the others: hold them too"});
+  const MatrixX B = M * unit.shapes;
+  const Eigen::CompleteOrthogonalDecomposition<MatrixX> D_rigid(D * rigid);
+  const MatrixX reactions = D_rigid.pseudoInverse().transpose() * (rigid.transpose() * B);
+  return B - D.transpose() * reactions;
+}
+
 }  // namespace
 
 Modes hold_by_joints(const MatrixX& K, const SparseMatrix& M, const std::vector<int>& held) {
@@ -93,19 +108,16 @@ int held_rigid_freedoms(const SparseMatrix& D, const MatrixX& rigid) {
 
 MatrixX stiffness_without_joints(const Modes& held, const SparseMatrix& M, const SparseMatrix& D,
                                  const MatrixX& rigid) {
-  const int rank = held_rigid_freedoms(D, rigid);
-  if (rank < rigid.cols())
-    throw InputError({"joints",
-                      fmt::format("the joints hold {} of {} rigid-body motions", rank, rigid.cols()),
-                      fmt::format("{} joint directions", D.rows()),
-                      "the stiffness against the ground says nothing about the others: hold them too"});
   const Modes unit = mass_normalised(held, M);
-  const MatrixX B = M * unit.shapes;
-  // T^T B = B - D^T (D Psi_0)^+T Psi_0^T B
-  const Eigen::CompleteOrthogonalDecomposition<MatrixX> D_rigid(D * rigid);
-  const MatrixX reactions = D_rigid.pseudoInverse().transpose() * (rigid.transpose() * B);
-  const MatrixX B_free = B - D.transpose() * reactions;
-  return B_free * unit.lambda.asDiagonal() * B_free.transpose();
+  const MatrixX B = forces_of_free_structure(unit, M, D, rigid);
+  return B * unit.lambda.asDiagonal() * B.transpose();
+}
+
+Modes release_from_joints(const Modes& held, const SparseMatrix& M, const SparseMatrix& D,
+                          const MatrixX& rigid) {
+  const Modes unit = mass_normalised(held, M);
+  return solve_low_rank_eigenproblem(forces_of_free_structure(unit, M, D, rigid),
+                                     MatrixX(unit.lambda.asDiagonal()), M);
 }
 
 }  // namespace wishbone

@@ -35,6 +35,11 @@ Modes hold_by_joints_null_space(const Modes& free, const SparseMatrix& M, const 
 MatrixX stiffness_without_joints(const Modes& held, const SparseMatrix& M, const SparseMatrix& D,
                                  const MatrixX& rigid);
 
+/// The modes of that stiffness, as many as were given, from its factors: no n x n matrix is formed. Of an incomplete
+/// set they are the modes of K* with K_ff* in place of K_ff.
+Modes release_from_joints(const Modes& held, const SparseMatrix& M, const SparseMatrix& D,
+                          const MatrixX& rigid);
+
 /// Number of independent rows of D over rigid motion: rank D Psi_0.
 int held_rigid_freedoms(const SparseMatrix& D, const MatrixX& rigid);
 

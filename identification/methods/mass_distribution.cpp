@@ -19,7 +19,8 @@ void check(const RigidBodyData& body, const Matrix3X& node_position, const Matri
     refuse("every node needs three freedoms",
            fmt::format("{} rows for {} nodes", shapes.rows(), node_position.cols()),
            "expand the measurement to all directions first");
-  if (!(body.mass > 0)) refuse("the mass must be positive", fmt::format("{:g} kg", body.mass), "weigh the body");
+  if (!(body.mass > 0))
+    refuse("the mass must be positive", fmt::format("{:g} kg", body.mass), "weigh the body");
   const Eigen::SelfAdjointEigenSolver<Matrix3> principal(body.inertia, Eigen::EigenvaluesOnly);
   if (!(principal.eigenvalues()[0] > 0))
     refuse("the inertia must be positive definite",
@@ -58,8 +59,8 @@ void orthogonality_rows(const MatrixX& shapes, const SparseMatrix& M_s, MatrixX&
 
 }  // namespace
 
-MassDistribution distribute_mass(const RigidBodyData& body, const Matrix3X& node_position, const MatrixX& shapes,
-                                 const SparseMatrix& M_s) {
+MassDistribution distribute_mass(const RigidBodyData& body, const Matrix3X& node_position,
+                                 const MatrixX& shapes, const SparseMatrix& M_s) {
   check(body, node_position, shapes);
   const Eigen::Index n = node_position.cols(), m = shapes.cols(), equations = 10 + m * (m - 1) / 2;
   MatrixX A(equations, n);

@@ -27,7 +27,7 @@ struct MassDistribution {
 /// (by a regularisation at rounding level). `shapes` (3n x m): node by node in x, y, z, any scale; M_s: masses of
 /// the support (3n x 3n).
 /// Throws InputError if sizes do not fit, mass or inertia are not positive.
-MassDistribution distribute_mass(const RigidBodyData& body, const Matrix3X& node_position, const MatrixX& shapes,
-                                 const SparseMatrix& M_s);
+MassDistribution distribute_mass(const RigidBodyData& body, const Matrix3X& node_position,
+                                 const MatrixX& shapes, const SparseMatrix& M_s);
 
 }  // namespace wishbone

@@ -3,12 +3,22 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/SparseCholesky>
 #include <cmath>
 #include <numbers>
 
 #include "core/error.h"
 
 namespace wishbone {
+namespace {
+
+[[noreturn]] void refuse_mass(Eigen::Index size) {
+  throw InputError({"eigenproblem", "the mass matrix must be positive definite",
+                    fmt::format("{0} x {0}", size),
+                    "look for massless freedoms, or for more mass taken away than there is"});
+}
+
+}  // namespace
 
 VectorX Modes::frequency_hz() const {
   return lambda.cwiseMax(0).cwiseSqrt() / (2 * std::numbers::pi);
@@ -42,12 +52,25 @@ SparseMatrix lumped_mass_matrix(const VectorX& node_mass) {
 
 Modes solve_eigenproblem(const MatrixX& K, const MatrixX& M) {
   // Eigen's solver does not look whether its factorisation of M succeeded
-  if (Eigen::LLT<MatrixX>(M).info() != Eigen::Success)
-    throw InputError({"eigenproblem", "the mass matrix must be positive definite",
-                      fmt::format("{} x {}", M.rows(), M.cols()),
-                      "look for massless freedoms, or for more mass taken away than there is"});
+  if (Eigen::LLT<MatrixX>(M).info() != Eigen::Success) refuse_mass(M.rows());
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixX> eigen(K, M);
   Modes modes{eigen.eigenvalues(), eigen.eigenvectors()};
+  fix_signs(modes.shapes);
+  return modes;
+}
+
+Modes solve_low_rank_eigenproblem(const MatrixX& B, const MatrixX& G, const SparseMatrix& M) {
+  const Eigen::SimplicialLLT<SparseMatrix> mass(M);
+  if (mass.info() != Eigen::Success) refuse_mass(M.rows());
+  const MatrixX carried = mass.solve(B);  // M^-1 B
+  // S = L L^T makes G S y = lambda y symmetric: (L^T G L) w = lambda w, y = L^-T w
+  const Eigen::LLT<MatrixX> S(B.transpose() * carried);
+  if (S.info() != Eigen::Success)
+    throw InputError({"eigenproblem", "the modes must be linearly independent",
+                      fmt::format("{} modes", B.cols()), "leave out modes that were measured twice"});
+  const MatrixX L = S.matrixL();
+  const Eigen::SelfAdjointEigenSolver<MatrixX> eigen(L.transpose() * G * L);
+  Modes modes{eigen.eigenvalues(), carried * S.matrixU().solve(eigen.eigenvectors())};
   fix_signs(modes.shapes);
   return modes;
 }

@@ -35,6 +35,11 @@ SparseMatrix diagonal_matrix(const VectorX& d);
 /// largest component of each positive. Throws InputError if M is not positive definite.
 Modes solve_eigenproblem(const MatrixX& K, const MatrixX& M);
 
+/// The m modes at lambda != 0 of (B G B^T) x = lambda M x, for B (n x m) of full rank and symmetric G (m x m): the
+/// n - m zeros are left out by construction. With x = M^-1 B y and S = B^T M^-1 B it is G S y = lambda y; no n x n
+/// matrix is formed. Throws InputError if M is not positive definite or B not of full rank.
+Modes solve_low_rank_eigenproblem(const MatrixX& B, const MatrixX& G, const SparseMatrix& M);
+
 /// +1 or -1 for every column: the sign of its largest component; of components that are equal but for rounding
 /// the first decides.
 VectorX dominant_signs(const MatrixX& shapes);

@@ -5,11 +5,11 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
-#include <Eigen/SparseCholesky>
 #include <limits>
 
 #include "core/error.h"
 #include "identification/methods/joint_support.h"
+#include "identification/methods/residual.h"
 
 namespace wishbone {
 namespace {
@@ -80,15 +80,6 @@ ElasticPart elastic_part(const MatrixX& shapes, const SparseMatrix& M, const Mat
   return {part.V(Eigen::all, kept) * scale.asDiagonal(), part.X(Eigen::all, kept) * scale.asDiagonal()};
 }
 
-/// |K x - lambda M x| / lambda in the metric of M^-1, x of unit modal mass.
-VectorX relative_residuals(const Modes& modes, const MatrixX& K_shapes, const SparseMatrix& M) {
-  const Eigen::SimplicialLDLT<SparseMatrix> mass(M);
-  const MatrixX r = K_shapes - M * modes.shapes * modes.lambda.asDiagonal();
-  const MatrixX carried = mass.solve(r);
-  return r.cwiseProduct(carried).colwise().sum().transpose().cwiseMax(0).cwiseSqrt().cwiseQuotient(
-      modes.lambda);
-}
-
 }  // namespace
 
 ReleasedModes release(const Modes& supported, const SparseMatrix& M, const SupportMatrices& support,
@@ -110,14 +101,15 @@ ReleasedModes release(const Modes& supported, const SparseMatrix& M, const Suppo
   ReleasedModes released;
   released.modes = {small.lambda.head(count), part.X * small.shapes.leftCols(count)};
   released.coefficients = part.V * small.shapes.leftCols(count);
-  const MatrixX K_shapes = F * released.coefficients;
-  released.lost_modes = joint_directions(support.D) - held_by_joints;
-  released.residual = released.lost_modes > 0
-                          ? VectorX::Constant(count, std::numeric_limits<double>::quiet_NaN())
-                          : relative_residuals(released.modes, K_shapes, M);
   const VectorX signs = dominant_signs(released.modes.shapes);
   released.modes.shapes *= signs.asDiagonal();
   released.coefficients *= signs.asDiagonal();
+  released.K_shapes = F * released.coefficients;
+  released.lost_modes = joint_directions(support.D) - held_by_joints;
+  released.residual =
+      released.lost_modes > 0
+          ? VectorX::Constant(count, std::numeric_limits<double>::quiet_NaN())
+          : relative_residuals(released.modes, released.K_shapes, M, SparseMatrix(0, M.rows()));
   return released;
 }
 

@@ -15,6 +15,7 @@ struct SupportMatrices {
 struct ReleasedModes {
   Modes modes;           ///< unit modal mass, orthogonal to rigid motion
   MatrixX coefficients;  ///< m x k, how the given modes combine: x = (1 - Psi_0 Psi_0^T M) Psi C
+  MatrixX K_shapes;      ///< n x k, K x of the free structure, known without approximation
   VectorX residual;    ///< k, bound on |lambda - lambda_true| / lambda; NaN where reactions are indeterminate
   int lost_modes = 0;  ///< elastic modes that no measurement on this support can show
 };

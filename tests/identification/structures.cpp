@@ -1,6 +1,5 @@
 #include "identification/structures.h"
 
-#include <Eigen/QR>
 #include <fstream>
 #include <map>
 #include <numeric>
@@ -8,6 +7,7 @@
 
 #include "identification/elements/hexahedral_mesh.h"
 #include "identification/free_free_modes.h"
+#include "identification/methods/model_modes.h"
 #include "identification/methods/rigid_modes.h"
 
 namespace wishbone {
@@ -106,14 +106,7 @@ TestStructure random_lumped(int count, unsigned seed) {
 }
 
 Modes modes_on(const TestStructure& structure, const SupportMatrices& support) {
-  const MatrixX K(structure.K + support.K_s), M(structure.M + support.M_s);
-  if (support.D.rows() == 0) return solve_eigenproblem(K, M);
-  const Eigen::ColPivHouseholderQR<MatrixX> qr(MatrixX(support.D.transpose()));
-  MatrixX N = MatrixX::Zero(K.rows(), K.rows() - qr.rank());
-  N.bottomRows(N.cols()).setIdentity();
-  N.applyOnTheLeft(qr.householderQ());
-  const Modes reduced = solve_eigenproblem(N.transpose() * K * N, N.transpose() * M * N);
-  return {reduced.lambda, N * reduced.shapes};
+  return model_modes(structure.K, structure.M, support);
 }
 
 Support springs_at(const std::vector<int>& nodes, double stiffness) {

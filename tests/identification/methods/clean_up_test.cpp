@@ -49,7 +49,8 @@ TEST(CleanUp, TakesTheNearestOrthonormalSet) {
   const MatrixX clean = cleaned_up(noisy, s.M, none).shapes;
   const auto distance = [&](const MatrixX& X) { return modal_masses(X - start, s.M).sum(); };
   for (unsigned seed = 3; seed < 8; ++seed) {
-    MatrixX Q = Eigen::HouseholderQR<MatrixX>(MatrixX::Identity(6, 6) + noise(6, 6, 1e-2, seed)).householderQ();
+    MatrixX Q =
+        Eigen::HouseholderQR<MatrixX>(MatrixX::Identity(6, 6) + noise(6, 6, 1e-2, seed)).householderQ();
     for (Eigen::Index j = 0; j < 6; ++j)
       if (Q(j, j) < 0) Q.col(j) *= -1;
     EXPECT_GT(distance(clean * Q), distance(clean));

@@ -26,7 +26,8 @@ TEST(ModelCorrection, TakesOverTheMeasuredModes) {
   const CorrectedModel model = correct_model(pair.truth.M, pair.K_model, measured);
   const MatrixX inertia = model.M * measured.shapes * measured.lambda.asDiagonal();
   EXPECT_LE((model.K * measured.shapes - inertia).norm(), 1e-11 * inertia.norm());
-  EXPECT_LE((model.M - MatrixX(pair.truth.M)).norm(), 1e-11 * pair.truth.M.norm()) << "orthonormal modes need no change";
+  EXPECT_LE((model.M - MatrixX(pair.truth.M)).norm(), 1e-11 * pair.truth.M.norm())
+      << "orthonormal modes need no change";
 }
 
 TEST(ModelCorrection, LeavesTheOtherModesAndRigidMotionAlone) {
@@ -59,7 +60,8 @@ TEST(ModelCorrection, ChangesTheMassForShapesThatAreNotOrthonormal) {
 
 TEST(ModelCorrection, RefusesDependentShapes) {
   const TestStructure s = chassis();
-  EXPECT_THROW(correct_model(s.M, s.K, {VectorX::Ones(2), s.elastic().shapes.col(0).replicate(1, 2)}), InputError);
+  EXPECT_THROW(correct_model(s.M, s.K, {VectorX::Ones(2), s.elastic().shapes.col(0).replicate(1, 2)}),
+               InputError);
 }
 
 }  // namespace

@@ -1,0 +1,169 @@
+#include "identification/judgement/judge.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/error.h"
+#include "identification/judgement/mac.h"
+#include "identification/methods/clean_up.h"
+#include "identification/methods/rigid_modes.h"
+
+namespace wishbone {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+VectorX hertz(const VectorX& omega) {
+  return omega / (2 * std::numbers::pi);
+}
+
+/// Rows of two sets that belong to the same freedoms.
+std::pair<std::vector<int>, std::vector<int>> common_rows(const ModalData& a, const ModalData& b) {
+  std::pair<std::vector<int>, std::vector<int>> rows;
+  for (int i = 0; i < a.freedom_count(); ++i)
+    if (const auto j = b.row(a.freedoms[static_cast<std::size_t>(i)])) {
+      rows.first.push_back(i);
+      rows.second.push_back(*j);
+    }
+  return rows;
+}
+
+ReferenceComparison compare(const ModalData& modes, const ModalData& reference, const std::string& name) {
+  const auto [rows, reference_rows] = common_rows(modes, reference);
+  if (rows.empty())
+    throw InputError({"reference", "it has no freedom in common with the identified modes", name,
+                      "number its nodes as those of the measurement"});
+  ReferenceComparison comparison;
+  comparison.name = name;
+  comparison.reference_hz = hertz(reference.omega);
+  comparison.mac = modal_assurance(modes.shapes(rows, Eigen::all), reference.shapes(reference_rows, Eigen::all));
+  comparison.partner = partners(comparison.mac);
+  comparison.frequency_error = VectorX::Constant(modes.mode_count(), kNaN);
+  for (int j = 0; j < modes.mode_count(); ++j)
+    if (const int k = comparison.partner[static_cast<std::size_t>(j)]; k >= 0)
+      comparison.frequency_error[j] = modes.omega[j] / reference.omega[k] - 1;
+  return comparison;
+}
+
+double condition_number(const MatrixX& symmetric) {
+  const Eigen::SelfAdjointEigenSolver<MatrixX> eigen(symmetric, Eigen::EigenvaluesOnly);
+  const double smallest = eigen.eigenvalues()[0], largest = eigen.eigenvalues()[symmetric.rows() - 1];
+  return smallest > 0 ? largest / smallest : std::numeric_limits<double>::infinity();
+}
+
+void list_condition_numbers(const PreparedStructure& s, const Modes& unit, Judgement& judgement) {
+  auto& list = judgement.condition_numbers;
+  list.emplace_back("Psi^T M Psi of the measured modes", condition_number(unit.shapes.transpose() * (s.M * unit.shapes)));
+  if (s.support.D.rows() > 0) {
+    const VectorX singular = MatrixX(s.support.D * s.rigid).bdcSvd().singularValues();
+    list.emplace_back("D Psi_0 of the joints", singular[0] / singular[singular.size() - 1]);
+  }
+  const VectorX mass = s.M.diagonal();
+  list.emplace_back("diagonal of M", mass.maxCoeff() / mass.minCoeff());
+}
+
+/// How far the measured modes are from balancing inertia against the springs: largest |Psi_0^T (lambda M_t psi - K_s
+/// psi)| / lambda, zero for exact data.
+double imbalance(const PreparedStructure& s, const Modes& unit) {
+  const MatrixX F = (s.M + s.support.M_s) * unit.shapes * unit.lambda.asDiagonal();
+  const MatrixX forces = s.rigid.transpose() * (F - s.support.K_s * unit.shapes);
+  return forces.colwise().norm().transpose().cwiseQuotient(unit.lambda).maxCoeff();
+}
+
+std::string mode_list(const std::vector<int>& modes) {
+  std::string text;
+  for (std::size_t i = 0; i < modes.size(); ++i) text += fmt::format("{}{}", i > 0 ? ", " : "", modes[i]);
+  return text;
+}
+
+void warn_of_data(const PreparedStructure& s, const Modes& unit, Judgement& judgement) {
+  constexpr double kLargeError = 0.1, kLargeImbalance = 0.05;
+  if (judgement.input_orthogonality_error > kLargeError)
+    judgement.warnings.push_back(
+        fmt::format("the measured modes are not orthogonal in the given masses: largest product {:.2f}; check the "
+                    "masses, the numbering and the directions",
+                    judgement.input_orthogonality_error));
+  const bool on_springs_alone = s.support.D.rows() == 0 && s.support.K_s.nonZeros() > 0;
+  if (!on_springs_alone) return;
+  if (const double error = imbalance(s, unit); error > kLargeImbalance)
+    judgement.warnings.push_back(
+        fmt::format("the measured modes contradict the given springs and masses: inertia and spring forces are out "
+                    "of balance by {:.1f} %",
+                    100 * error));
+}
+
+void warn_of_result(const Solution& solution, Judgement& judgement) {
+  constexpr double kStiffSupport = 1, kLargeResidual = 0.2;
+  if (solution.support_ratio > kStiffSupport)
+    judgement.warnings.push_back(
+        fmt::format("the kept modes cannot carry the support: it is {:.2g} times as stiff as the stiffest of them; "
+                    "keep more modes or use a softer support",
+                    solution.support_ratio));
+  if (solution.lost_modes > 0)
+    judgement.warnings.push_back(
+        fmt::format("the support is over-constrained: {} elastic modes cannot be recovered, and the frequencies of "
+                    "modes that strain the support are too high by an unknown amount",
+                    solution.lost_modes));
+  std::vector<int> poor;
+  for (Eigen::Index j = 0; j < solution.residual.size(); ++j)
+    if (solution.residual[j] > kLargeResidual) poor.push_back(static_cast<int>(j) + 1);
+  if (!poor.empty())
+    judgement.warnings.push_back(
+        fmt::format("the measured set leaves more than {:.0f} % of the forces of mode{} {} open", 100 * kLargeResidual,
+                    poor.size() > 1 ? "s" : "", mode_list(poor)));
+}
+
+void judge_noise(const IdentificationTask& task, const PreparedStructure& s, const Modes& identified,
+                 Judgement& judgement) {
+  if (!task.noise) return;
+  judgement.frequency_std_hz = frequency_deviation(
+      s.measured(), *task.noise, [&](const Modes& measured) { return solve(task, s, measured).modes; });
+  judgement.notes.push_back(fmt::format(
+      "standard deviations from {} repetitions with {:.3g} % scatter of frequencies and {:.3g} % of shapes (seed {})",
+      task.noise->samples, 100 * task.noise->frequency, 100 * task.noise->shape, task.noise->seed));
+  std::vector<int> lost;
+  for (Eigen::Index j = 0; j < identified.count(); ++j)
+    if (!std::isfinite(judgement.frequency_std_hz[j])) lost.push_back(static_cast<int>(j) + 1);
+  if (!lost.empty())
+    judgement.warnings.push_back(
+        fmt::format("under this noise mode{} {} cannot be told from others", lost.size() > 1 ? "s" : "", mode_list(lost)));
+}
+
+}  // namespace
+
+Judgement judge(const IdentificationTask& task, const PreparedStructure& s, const Solution& solution,
+                const ModalData& modes) {
+  Judgement judgement;
+  judgement.notes = s.notes;
+  judgement.warnings = s.warnings;
+  judgement.input_hz = hertz(s.data.omega);
+  judgement.frequency_hz = hertz(modes.omega);
+  judgement.residual = solution.residual;
+  judgement.auto_mac = modal_assurance(modes.shapes, modes.shapes);
+  judgement.input_mac = modal_assurance(modes.shapes, s.data.shapes);
+  judgement.lost_modes = solution.lost_modes;
+
+  const SparseMatrix M_t = s.M + s.support.M_s;
+  const Modes unit = mass_normalised(s.measured(), M_t);
+  judgement.input_orthogonality_error = orthogonality_error(s.data.shapes, M_t);
+  const MatrixX gram = modes.shapes.transpose() * (solution.M * modes.shapes);
+  judgement.orthogonality_error = (gram - MatrixX::Identity(gram.rows(), gram.cols())).cwiseAbs().maxCoeff();
+  const bool is_free = task.goal != Goal::kHeld;
+  if (is_free) {
+    const MatrixX rigid =
+        rigid_body_basis(rigid_body_shapes(modes.freedoms, modes.node_ids, modes.node_position), solution.M);
+    judgement.rigid_body_error = (rigid.transpose() * (solution.M * modes.shapes)).cwiseAbs().maxCoeff();
+  }
+  list_condition_numbers(s, unit, judgement);
+  warn_of_data(s, unit, judgement);
+  warn_of_result(solution, judgement);
+  judge_noise(task, s, solution.modes, judgement);
+  if (task.reference) judgement.reference = compare(modes, *task.reference, task.reference_name);
+  return judgement;
+}
+
+}  // namespace wishbone

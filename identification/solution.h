@@ -1,0 +1,23 @@
+#pragma once
+
+#include "identification/prepared_structure.h"
+
+namespace wishbone {
+
+/// What a task comes to on plain matrices, before it is judged.
+struct Solution {
+  Modes modes;             ///< identified, unit modal mass in M
+  SparseMatrix M;          ///< of the structure that they belong to
+  SparseMatrix D;          ///< joints that hold it
+  VectorX residual;        ///< relative bound on the error of lambda; NaN: none
+  MatrixX coefficients;    ///< measured modes x identified ones; empty where a mode is no combination of them
+  double support_ratio = 0;  ///< stiffest support over stiffest kept mode, lambda(M^-1 K_s) / lambda_m; 0: complete set
+  int lost_modes = 0;
+  std::optional<CorrectedModel> corrected;
+};
+
+/// Finds the modes of the task's goal from measured ones (as given, or disturbed by noise).
+/// @throws InputError when they cannot give what is looked for
+Solution solve(const IdentificationTask& task, const PreparedStructure& structure, const Modes& measured);
+
+}  // namespace wishbone
