@@ -45,7 +45,7 @@ CsvTable::CsvTable(const std::filesystem::path& path) : reader_(path) {
 
 bool CsvTable::next_content() {
   while (reader_.next()) {
-    const std::string_view content = trimmed(reader_.line());
+    const std::string_view content = without_blanks(reader_.line());
     if (!content.empty() && content.front() != '#') return true;
   }
   return false;
@@ -61,9 +61,9 @@ void CsvTable::read_header() {
   for (const std::string_view field : fields_) {
     const auto bracket = field.ends_with(']') ? field.find('[') : std::string_view::npos;
     const std::string where = reader_.where(field);
-    CsvColumn column{lower_case(trimmed(field.substr(0, bracket))), "", where, where};
+    CsvColumn column{lower_case(without_blanks(field.substr(0, bracket))), "", where, where};
     if (bracket != std::string_view::npos)
-      column.unit = unit_of(trimmed(field.substr(bracket + 1, field.size() - bracket - 2)));
+      column.unit = unit_of(without_blanks(field.substr(bracket + 1, field.size() - bracket - 2)));
     if (column.name.empty())
       reader_.reject(field, "a column has no name", "name it, or remove its separator");
     if (find(column.name)) reader_.reject(field, "two columns have the same name", "rename or remove one");
@@ -102,7 +102,7 @@ std::string_view CsvTable::take_quoted(std::string_view& rest) const {
   }
   const std::string_view field = rest.substr(1, end - 1);
   rest = rest.substr(end + 1);
-  const std::string_view behind = trimmed(rest.substr(0, rest.find(separator_)));
+  const std::string_view behind = without_blanks(rest.substr(0, rest.find(separator_)));
   if (!behind.empty())
     reader_.reject(behind, "text follows a quoted field",
                    "quote the whole field; write \"\" for a quote in it");
@@ -110,7 +110,7 @@ std::string_view CsvTable::take_quoted(std::string_view& rest) const {
 }
 
 std::string_view CsvTable::take_plain(std::string_view& rest) const {
-  const std::string_view field = trimmed(rest.substr(0, rest.find(separator_)));
+  const std::string_view field = without_blanks(rest.substr(0, rest.find(separator_)));
   if (const auto quote = field.find('"'); quote != std::string_view::npos)
     reader_.reject(field.substr(quote), "a quote inside a field that does not begin with one",
                    "quote the whole field");

@@ -99,7 +99,7 @@ std::int64_t LineReader::integer(std::string_view token) const {
   return value;
 }
 
-std::string_view trimmed(std::string_view text) {
+std::string_view without_blanks(std::string_view text) {
   constexpr std::string_view kBlank = " \t";
   const auto first = text.find_first_not_of(kBlank);
   if (first == std::string_view::npos) return text.substr(0, 0);

@@ -54,7 +54,7 @@ class LineReader {
 };
 
 /// `text` without blanks and tabs at its ends.
-std::string_view trimmed(std::string_view text);
+std::string_view without_blanks(std::string_view text);
 
 /// `text` in quotes for messages: shortened when it is long, bytes that are not printable as \xNN.
 std::string in_quotes(std::string_view text);

@@ -79,8 +79,8 @@ void read_entries(LineReader& reader, const MatrixMarketHeader& header, Use use)
   else
     read_coordinates(reader, header, use);
   if (next_matrix_market_line(reader))
-    reader.reject(trimmed(reader.line()), fmt::format("there are more than {} entries", header.entries),
-                  "correct the line of sizes");
+    reader.reject(without_blanks(reader.line()),
+                  fmt::format("there are more than {} entries", header.entries), "correct the line of sizes");
 }
 
 /// Entries are not remembered with their lines, which would cost as much as the matrix: they are read again.
@@ -92,7 +92,7 @@ void read_entries(LineReader& reader, const MatrixMarketHeader& header, Use use)
     auto [row, column] = std::pair<std::int64_t, std::int64_t>(entry.row(), entry.col());
     if (header.symmetry != Symmetry::kGeneral && row < column) std::swap(row, column);
     if (!taken.insert(column * header.rows + row).second)
-      reader.reject(trimmed(reader.line()), "this element (or its mirror image) has an entry already",
+      reader.reject(without_blanks(reader.line()), "this element (or its mirror image) has an entry already",
                     "remove one, or add the two up: programs disagree which is meant");
   });
   throw InputError({path.string(), "an element has two entries", "", "the file changed while it was read"});

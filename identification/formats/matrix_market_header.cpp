@@ -76,7 +76,7 @@ std::int64_t array_entries(const MatrixMarketHeader& header) {
 
 void check_sizes(const LineReader& reader, const MatrixMarketHeader& header) {
   const auto refuse = [&](std::string what, std::string remedy) {
-    reader.reject(trimmed(reader.line()), std::move(what), std::move(remedy));
+    reader.reject(without_blanks(reader.line()), std::move(what), std::move(remedy));
   };
   if (header.symmetry != Symmetry::kGeneral && header.rows != header.columns)
     refuse("a symmetric matrix has as many columns as rows",
@@ -113,12 +113,13 @@ MatrixMarketHeader read_matrix_market_header(LineReader& reader) {
 
 bool next_matrix_market_line(LineReader& reader) {
   while (reader.next())
-    if (const auto content = trimmed(reader.line()); !content.empty() && content.front() != '%') return true;
+    if (const auto content = without_blanks(reader.line()); !content.empty() && content.front() != '%')
+      return true;
   return false;
 }
 
 void split_words(const LineReader& reader, std::string_view what, std::span<std::string_view> words) {
-  std::string_view rest = trimmed(reader.line());
+  std::string_view rest = without_blanks(reader.line());
   for (std::string_view& word : words) {
     if (rest.empty())
       reader.reject(rest, fmt::format("{} must have {} words", what, words.size()), "complete the line");
