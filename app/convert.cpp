@@ -41,9 +41,12 @@ void add_convert(CLI::App& app, ExitCode& exit_code) {
   command->add_option("IN", options->input, "file of modes")->required();
   command->add_option("OUT", options->output, "file to write")->required();
   command->footer(
-      "The extensions tell the formats: .h5 (mode file), .csv (NAME.csv stands for the tables\n"
-      "NAME_nodes.csv, NAME_frequencies.csv and NAME_shapes.csv). What the format of OUT has no place for is named.\n\n"
-      "Example:\n  wishbone convert frame.csv frame.h5");
+      "The extensions tell the formats: .h5 (mode file), .unv and .uff (Universal File), .csv (NAME.csv "
+      "stands for\n"
+      "the tables NAME_nodes.csv, NAME_frequencies.csv and NAME_shapes.csv). What the format of OUT has no "
+      "place for\n"
+      "is named.\n\n"
+      "Example:\n  wishbone convert frame.unv frame.h5");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

@@ -8,10 +8,12 @@
 #include "app/meta_text.h"
 #include "app/modal_summary.h"
 #include "app/table.h"
+#include "app/universal_file_summary.h"
 #include "core/error.h"
 #include "core/hdf5.h"
 #include "identification/formats/modal_file.h"
 #include "identification/formats/mode_file.h"
+#include "identification/formats/uff_reader.h"
 
 namespace wishbone {
 
@@ -118,9 +120,24 @@ void tell_tables(const Options& options) {
   }
 }
 
+void tell_universal_file(const Options& options) {
+  const UffFile file = read_uff(options.file);
+  if (options.json) {
+    nlohmann::ordered_json out = json_of(file);
+    out["file"] = options.file;
+    fmt::print("{}\n", out.dump(2));
+  } else {
+    fmt::print("{}\n", options.file);
+    print_universal_file(file);
+  }
+}
+
 ExitCode run(const Options& options) {
-  if (modal_format(options.file) == ModalFormat::kCsvTables)
+  const auto format = modal_format(options.file);
+  if (format == ModalFormat::kCsvTables)
     tell_tables(options);
+  else if (format == ModalFormat::kUniversalFile)
+    tell_universal_file(options);
   else
     tell_hdf5(options);
   return kDone;
@@ -134,7 +151,8 @@ void add_info(CLI::App& app, ExitCode& exit_code) {
       "info", "Tell what is in a file: status, time span, datasets with their units; modes");
   command
       ->add_option("FILE", options->file,
-                   "HDF5 file written by wishbone (a .partial one too), or modal data in CSV tables")
+                   "HDF5 file written by wishbone (a .partial one too), Universal File (.unv, .uff),\n"
+                   "or modal data in CSV tables")
       ->required();
   command->add_flag("--json", options->json, "print JSON");
   command->footer("Example:\n  wishbone info out.h5");

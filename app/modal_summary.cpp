@@ -33,7 +33,8 @@ void print_modes(const ModalData& data) {
 void print_support(const Support& support) {
   fmt::print("\nsupport: {}\n", describe_support(support));
   for (const auto& spring : support.springs)
-    fmt::print("  spring at node {} along {}: {:.6g} N/m\n", spring.node, text_of(spring.direction), spring.stiffness);
+    fmt::print("  spring at node {} along {}: {:.6g} N/m\n", spring.node, text_of(spring.direction),
+               spring.stiffness);
   for (const auto& joint : support.joints)
     fmt::print("  joint at node {} along {}\n", joint.node, text_of(joint.direction));
   for (const auto& mass : support.masses) fmt::print("  mass at node {}: {:.6g} kg\n", mass.node, mass.mass);
@@ -70,8 +71,8 @@ std::string brief(const ModalData& data) {
 void print_modal_data(const ModalData& data) {
   if (!data.title.empty()) fmt::print("title: {}\n", data.title);
   fmt::print("{} nodes{}, {} freedoms{}, {} modes, {} lines\n", data.node_count(),
-             data.has_masses() ? fmt::format(" with {:.6g} kg", data.node_mass.sum()) : "", data.freedom_count(),
-             data.is_complete() ? " (all)" : "", data.mode_count(), data.lines.size());
+             data.has_masses() ? fmt::format(" with {:.6g} kg", data.node_mass.sum()) : "",
+             data.freedom_count(), data.is_complete() ? " (all)" : "", data.mode_count(), data.lines.size());
   if (data.mode_count() > 0) print_modes(data);
   print_support(data.support);
   fmt::print("\nprovenance{}\n", data.provenance.empty() ? ": unknown" : "");
@@ -79,11 +80,12 @@ void print_modal_data(const ModalData& data) {
 }
 
 nlohmann::ordered_json json_of(const ModalData& data) {
-  nlohmann::ordered_json out{{"title", data.title},
-                             {"nodes", data.node_count()},
-                             {"freedoms", data.freedom_count()},
-                             {"mass", data.has_masses() ? nlohmann::json(data.node_mass.sum()) : nlohmann::json()},
-                             {"lines", data.lines.size()}};
+  nlohmann::ordered_json out{
+      {"title", data.title},
+      {"nodes", data.node_count()},
+      {"freedoms", data.freedom_count()},
+      {"mass", data.has_masses() ? nlohmann::json(data.node_mass.sum()) : nlohmann::json()},
+      {"lines", data.lines.size()}};
   out["modes"] = nlohmann::json::array();
   for (int j = 0; j < data.mode_count(); ++j)
     out["modes"].push_back({{"frequency_hz", hertz(data.omega[j])},

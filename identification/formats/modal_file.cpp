@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "identification/formats/csv_modal_data.h"
 #include "identification/formats/mode_file.h"
+#include "identification/formats/uff_modal_data.h"
 
 namespace wishbone {
 namespace {
@@ -18,7 +19,7 @@ using Path = std::filesystem::path;
 
 /// Parts of ModalData that a format has no place for.
 struct Lost {
-  bool title = false, masses = false, support = false, lines = false, provenance = false;
+  bool digits = false, title = false, masses = false, support = false, lines = false, provenance = false;
 };
 
 struct Format {
@@ -41,6 +42,10 @@ void write_hdf5(const Path& path, const ModalData& data) {
   write_mode_file(path.string(), data);
 }
 
+ModalData read_uff_file(const Path& path) {
+  return read_uff_modal_data(path);
+}
+
 ModalData read_csv(const Path& path) {
   return read_csv_modal_data(csv_modal_files(path));
 }
@@ -53,10 +58,14 @@ std::vector<Path> csv_files(const Path& path) {
 }
 
 constexpr Lost kNothing;
+constexpr Lost kLostInUff{.digits = true, .masses = true, .support = true, .provenance = true};
 constexpr Lost kLostInTables{.title = true, .support = true, .lines = true, .provenance = true};
-constexpr std::array kFormats{Format{".h5", ModalFormat::kModeFile, read_hdf5, write_hdf5, itself, kNothing},
-                              Format{".hdf5", ModalFormat::kModeFile, read_hdf5, write_hdf5, itself, kNothing},
-                              Format{".csv", ModalFormat::kCsvTables, read_csv, write_csv, csv_files, kLostInTables}};
+constexpr std::array kFormats{
+    Format{".h5", ModalFormat::kModeFile, read_hdf5, write_hdf5, itself, kNothing},
+    Format{".hdf5", ModalFormat::kModeFile, read_hdf5, write_hdf5, itself, kNothing},
+    Format{".unv", ModalFormat::kUniversalFile, read_uff_file, write_uff_modal_data, itself, kLostInUff},
+    Format{".uff", ModalFormat::kUniversalFile, read_uff_file, write_uff_modal_data, itself, kLostInUff},
+    Format{".csv", ModalFormat::kCsvTables, read_csv, write_csv, csv_files, kLostInTables}};
 
 /// Null when no format has this extension.
 const Format* find_format(const Path& path) {
@@ -92,6 +101,7 @@ std::vector<Path> modal_data_files(const Path& path) {
 std::vector<std::string> lost_in_modal_data(const Path& path, const ModalData& data) {
   const Lost& lost = format_of(path).lost;
   std::vector<std::string> parts;
+  if (lost.digits && data.mode_count() > 0) parts.push_back("digits of the modes beyond the sixth");
   if (lost.title && !data.title.empty()) parts.push_back("title");
   if (lost.masses && data.has_masses()) parts.push_back("nodal masses");
   if (lost.support && !data.support.empty())

@@ -42,9 +42,10 @@ class ModalCommands : public testing::Test {
 TEST_F(ModalCommands, ConvertGoesToTablesAndBackWithoutLossOfABit) {
   const Answer there = call("convert " + mode_file_ + " " + (files_ / "t.csv").string());
   EXPECT_EQ(there.code, 0) << there.text;
-  EXPECT_THAT(there.text, AllOf(HasSubstr("t.csv: 2 nodes, 2 freedoms, 2 modes from 17.25 Hz to 20.5 Hz, 1 spring"),
-                                HasSubstr("left out, for the format has no place for it: title, support (1 spring), "
-                                          "provenance")));
+  EXPECT_THAT(there.text,
+              AllOf(HasSubstr("t.csv: 2 nodes, 2 freedoms, 2 modes from 17.25 Hz to 20.5 Hz, 1 spring"),
+                    HasSubstr("left out, for the format has no place for it: title, support (1 spring), "
+                              "provenance")));
   const Answer back = call("convert " + (files_ / "t.csv").string() + " " + (files_ / "back.h5").string());
   EXPECT_EQ(back.code, 0) << back.text;
   const ModalData read = read_mode_file(files_ / "back.h5");
@@ -79,7 +80,8 @@ TEST_F(ModalCommands, ConvertTellsWhereATableIsWrong) {
   files_.write("t_frequencies.csv", "mode,frequency_hz\n1,17.25\n2,20,5\n");
   const Answer answer = call("convert " + (files_ / "t.csv").string() + " " + (files_ / "a.h5").string());
   EXPECT_EQ(answer.code, 2);
-  EXPECT_THAT(answer.text, HasSubstr("t_frequencies.csv:3 (byte 31): error: the row has more than the 2 fields"));
+  EXPECT_THAT(answer.text,
+              HasSubstr("t_frequencies.csv:3 (byte 31): error: the row has more than the 2 fields"));
 }
 
 TEST_F(ModalCommands, InfoTellsTheModesOfAnyFormat) {
@@ -99,6 +101,32 @@ TEST_F(ModalCommands, InfoTellsTheModesOfAnyFormat) {
                     HasSubstr("measured on a Monday"), HasSubstr("/modes/shapes")));
   const auto json = nlohmann::json::parse(call("info --json " + mode_file_).text);
   EXPECT_EQ(json["modal_data"]["support"]["springs"][0]["stiffness"], 47e3);
+}
+
+TEST_F(ModalCommands, ConvertGoesToUniversalFilesAndBackWithinTheirDigits) {
+  const Answer there = call("convert " + mode_file_ + " " + (files_ / "a.unv").string());
+  EXPECT_EQ(there.code, 0) << there.text;
+  EXPECT_THAT(there.text,
+              HasSubstr("digits of the modes beyond the sixth, nodal masses, support (1 spring)"));
+  const Answer back = call("convert " + (files_ / "a.unv").string() + " " + (files_ / "back.h5").string());
+  EXPECT_EQ(back.code, 0) << back.text;
+  const ModalData read = read_mode_file(files_ / "back.h5");
+  EXPECT_LT((read.omega - data_.omega).norm(), 1e-5 * data_.omega.norm());
+  EXPECT_EQ(read.node_position, data_.node_position);
+  EXPECT_FALSE(read.has_masses());
+}
+
+TEST_F(ModalCommands, InfoListsWhatAUniversalFileHolds) {
+  const std::string data = std::string(WISHBONE_TEST_DATA) + "/uff/";
+  const Answer functions = call("info " + data + "Sample_UFF58b_bin.uff");
+  EXPECT_EQ(functions.code, 0) << functions.text;
+  EXPECT_THAT(functions.text, HasSubstr("58b"));
+  const auto json = nlohmann::json::parse(call("info --json " + data + "Sample_UFF58b_bin.uff").text);
+  EXPECT_GT(json["functions"].size(), 0u);
+  EXPECT_GT(json["functions"][0]["points"], 0);
+  const Answer shapes = call("info " + data + "uff55_translation.uff");
+  EXPECT_EQ(shapes.code, 0) << shapes.text;
+  EXPECT_THAT(shapes.text, HasSubstr("nodal result"));
 }
 
 }  // namespace

@@ -28,6 +28,12 @@ TEST(ModalFile, HasTheFormatOfItsExtension) {
     write_modal_data(folder / name, data);
     expect_same_tables(read_modal_data(folder / name), data);
   }
+  ModalData mild = data;  // of 6 digits and two of exponent
+  mild.shapes << 1, 2, 3, 4, 5, 6, 7, 8;
+  for (const std::string name : {"a.unv", "a.uff"}) {
+    write_modal_data(folder / name, mild);
+    EXPECT_EQ(read_modal_data(folder / name).mode_count(), 2);
+  }
   EXPECT_THAT(modal_data_files("a.csv"), ElementsAre("a_nodes.csv", "a_frequencies.csv", "a_shapes.csv"));
 }
 
@@ -37,6 +43,9 @@ TEST(ModalFile, TellsWhatItsFormatHasNoPlaceFor) {
   EXPECT_THAT(lost_in_modal_data("a.csv", data),
               ElementsAre("title", "support (2 springs, 1 joint, 2 masses)", "lines", "provenance"));
   EXPECT_THAT(lost_in_modal_data("a.csv", {}), IsEmpty());
+  EXPECT_THAT(lost_in_modal_data("a.unv", data),
+              ElementsAre("digits of the modes beyond the sixth", "nodal masses",
+                          "support (2 springs, 1 joint, 2 masses)", "provenance"));
 }
 
 TEST(ModalFile, OfAnotherExtensionIsRefused) {
