@@ -39,8 +39,10 @@ void add_solid(Edges& edges, Nodes nodes, const Solid& solid) {
   if (!solid.has_apex) add_chain(edges, top, true);
   for (std::size_t corner = 0; corner < solid.corners; ++corner) {
     const int middle = solid.stride == 2 ? nodes[solid.loop() + corner] : 0;
-    add_chain(edges, std::array{nodes[corner * solid.stride], middle, top[solid.has_apex ? 0 : corner * solid.stride]},
-              false);
+    add_chain(
+        edges,
+        std::array{nodes[corner * solid.stride], middle, top[solid.has_apex ? 0 : corner * solid.stride]},
+        false);
   }
 }
 

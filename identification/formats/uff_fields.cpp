@@ -17,8 +17,14 @@ bool is_number(std::string_view field) {
   return !field.empty() && number_length(field) == field.size();
 }
 
-bool all_numbers(const Fields& fields) {
-  return std::all_of(fields.begin(), fields.end(), [](auto f) { return f.empty() || is_number(f); });
+bool is_integer(std::string_view field) {
+  return integer_in(field).has_value();
+}
+
+using Test = bool (*)(std::string_view);
+
+bool all_blank_or(Test is_valid, const Fields& fields) {
+  return std::all_of(fields.begin(), fields.end(), [&](auto f) { return f.empty() || is_valid(f); });
 }
 
 Fields columns_of(std::string_view line, std::initializer_list<int> widths) {
@@ -40,9 +46,9 @@ bool right_justified(const Fields& fields) {
 }
 
 /// Whether a border between columns goes through a word that is a number as a whole.
-bool cut_numbers(const Fields& fields, const Fields& words) {
+bool cut_numbers(Test is_valid, const Fields& fields, const Fields& words) {
   return std::any_of(words.begin(), words.end(), [&](std::string_view word) {
-    return is_number(word) && std::any_of(fields.begin(), fields.end(), [&](std::string_view field) {
+    return is_valid(word) && std::any_of(fields.begin(), fields.end(), [&](std::string_view field) {
              return word.data() < field.data() && field.data() < word.data() + word.size();
            });
   });
@@ -63,6 +69,29 @@ Fields pulled_apart(std::string_view line) {
 
 constexpr const char* kNumberRemedy = "write a finite number as Fortran does, such as 1.00000E+00";
 
+/// As number_fields, of fields that are valid.
+Fields valid_fields(const UffInput& in, std::initializer_list<int> widths, std::size_t expected,
+                    Test is_valid) {
+  const Fields words = words_of(in.text());
+  const bool words_are_numbers = all_blank_or(is_valid, words);
+  if (words_are_numbers && (expected == 0 || words.size() == expected)) return words;
+
+  Fields fields = columns_of(in.text(), widths);
+  const bool fits = right_justified(fields);
+  const bool cuts = cut_numbers(is_valid, fields, words);
+  for (auto& field : fields) field = trimmed(field);
+  const bool touching = fields.size() == expected && words.size() < expected;
+  if (fits && all_blank_or(is_valid, fields) && (!cuts || touching)) return fields;
+  if (words_are_numbers) return words;
+
+  Fields numbers = pulled_apart(in.text());
+  if (!all_blank_or(is_valid, numbers)) {
+    const std::string_view word = *std::find_if_not(words.begin(), words.end(), is_valid);
+    fail_field(in, word, "expected a number", kNumberRemedy);
+  }
+  return numbers;
+}
+
 }  // namespace
 
 std::vector<std::string_view> words_of(std::string_view text) {
@@ -82,24 +111,7 @@ std::string_view columns(std::string_view line, std::size_t begin, std::size_t w
 
 std::vector<std::string_view> number_fields(const UffInput& in, std::initializer_list<int> widths,
                                             std::size_t expected) {
-  const Fields words = words_of(in.text());
-  const bool words_are_numbers = all_numbers(words);
-  if (words_are_numbers && (expected == 0 || words.size() == expected)) return words;
-
-  Fields fields = columns_of(in.text(), widths);
-  const bool fits = right_justified(fields);
-  const bool cuts = cut_numbers(fields, words);
-  for (auto& field : fields) field = trimmed(field);
-  const bool touching = fields.size() == expected && words.size() < expected;
-  if (fits && all_numbers(fields) && (!cuts || touching)) return fields;
-  if (words_are_numbers) return words;
-
-  Fields numbers = pulled_apart(in.text());
-  if (!all_numbers(numbers)) {
-    const std::string_view word = *std::find_if_not(words.begin(), words.end(), is_number);
-    fail_field(in, word, "expected a number", kNumberRemedy);
-  }
-  return numbers;
+  return valid_fields(in, widths, expected, is_number);
 }
 
 void fail_field(const UffInput& in, std::string_view field, std::string what, std::string remedy) {
@@ -124,16 +136,18 @@ double real_field(const UffInput& in, std::string_view field, std::string_view w
   return *value;
 }
 
-std::vector<int> integers_of_line(const UffInput& in, int width, std::size_t expected, std::string_view what) {
+std::vector<int> integers_of_line(const UffInput& in, int width, std::size_t expected,
+                                  std::string_view what) {
   std::vector<int> integers;
-  for (const std::string_view field : number_fields(in, {width}, expected))
+  for (const std::string_view field : valid_fields(in, {width}, expected, is_integer))
     integers.push_back(integer_field(in, field, what));
   integers.resize(std::max(integers.size(), expected));
   return integers;
 }
 
 void append_reals(const UffInput& in, int width, std::string_view what, std::vector<double>& reals) {
-  for (const std::string_view field : number_fields(in, {width})) reals.push_back(real_field(in, field, what));
+  for (const std::string_view field : number_fields(in, {width}))
+    reals.push_back(real_field(in, field, what));
 }
 
 }  // namespace wishbone

@@ -30,7 +30,8 @@ int integer_field(const UffInput& in, std::string_view field, std::string_view w
 double real_field(const UffInput& in, std::string_view field, std::string_view what);
 
 /// Throws InputError at a field of the current line.
-[[noreturn]] void fail_field(const UffInput& in, std::string_view field, std::string what, std::string remedy);
+[[noreturn]] void fail_field(const UffInput& in, std::string_view field, std::string what,
+                             std::string remedy);
 
 /// All integers of the current line, written in columns of `width`.
 std::vector<int> integers_of_line(const UffInput& in, int width, std::size_t expected, std::string_view what);

@@ -30,8 +30,8 @@ struct UffHeader {
 /// Dataset 164. The factors convert from SI to the units of the file:
 ///     value in SI = value in the file / factor.
 struct UffUnits {
-  int code = 1;             ///< 1 to 10, 9: user-defined
-  std::string description;  ///< at most 20 characters
+  int code = 1;              ///< 1 to 10, 9: user-defined
+  std::string description;   ///< at most 20 characters
   int temperature_mode = 1;  ///< 1 absolute, 2 relative
   double length = 1;         ///< file units per m
   double force = 1;          ///< file units per N
@@ -150,9 +150,9 @@ struct UffFunction {
   UffFreedom reference;
 
   bool is_complex = false;
-  bool is_even = true;         ///< abscissae at start + k step; else listed in `abscissa`
-  double abscissa_start = 0;   ///< zero when uneven
-  double abscissa_step = 0;    ///< zero when uneven
+  bool is_even = true;        ///< abscissae at start + k step; else listed in `abscissa`
+  double abscissa_start = 0;  ///< zero when uneven
+  double abscissa_step = 0;   ///< zero when uneven
   double z_value = 0;
   UffAxis abscissa_axis, ordinate_axis, denominator_axis, z_axis;
 

@@ -23,24 +23,18 @@ bool is_delimiter(std::string_view text) {
 
 }  // namespace
 
-UffInput::UffInput(const std::filesystem::path& path) : path_(path), buffer_(kBufferSize) {
-  const auto refuse = [&](std::string what, std::string remedy) {
-    throw InputError({path.string(), std::move(what), "", std::move(remedy)});
-  };
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) refuse("there is no such file", "check the name");
-  if (!std::filesystem::is_regular_file(status)) refuse("this is not a file", "name a Universal File");
-  size_ = std::filesystem::file_size(path, error);
-  file_.open(path, std::ios::binary);
-  if (error || !file_) refuse("the file cannot be opened", "check its permissions");
+UffInput::UffInput(std::istream& stream, std::string name)
+    : stream_(stream), name_(std::move(name)), buffer_(kBufferSize) {
+  stream_.seekg(0, std::ios::end);
+  size_ = static_cast<std::uintmax_t>(std::max<std::streamoff>(stream_.tellg(), 0));
+  stream_.seekg(0);
 }
 
 bool UffInput::fill() {
   if (at_ < end_) return true;
-  file_.read(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
+  stream_.read(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
   at_ = 0;
-  end_ = static_cast<std::size_t>(file_.gcount());
+  end_ = static_cast<std::size_t>(stream_.gcount());
   return end_ > 0;
 }
 
@@ -56,7 +50,8 @@ bool UffInput::advance() {
   ++line_;
   while (fill()) {
     const char* begin = buffer_.data() + at_;
-    const char* stop = std::find_if(begin, begin + (end_ - at_), [](char c) { return c == '\n' || c == '\r'; });
+    const char* stop =
+        std::find_if(begin, begin + (end_ - at_), [](char c) { return c == '\n' || c == '\r'; });
     const auto length = static_cast<std::size_t>(stop - begin);
     const std::size_t kept = std::min(length, kLongestLine - text_.size());
     text_.append(begin, kept);
@@ -82,11 +77,17 @@ void UffInput::read_line_end() {
   }
 }
 
+bool UffInput::at_delimiter() const {
+  return !too_long_ && is_delimiter(text_);
+}
+
 bool UffInput::advance_in_dataset() {
   if (!advance())
-    fail("the file ends before the delimiter '    -1' of the dataset", "", "the file was cut off: get it again");
+    fail("the file ends before the delimiter '    -1' of the dataset", "",
+         "the file was cut off: get it again");
   if (at_delimiter()) return false;
-  if (too_long_) fail_line(fmt::format("a line is longer than {} bytes", kLongestLine), "name a Universal File");
+  if (too_long_)
+    fail_line(fmt::format("a line is longer than {} bytes", kLongestLine), "name a Universal File");
   return true;
 }
 
@@ -112,26 +113,28 @@ std::string_view UffInput::require_before_binary(std::string_view what) {
 void UffInput::end_dataset() {
   while (advance_in_dataset())
     if (!trimmed(text_).empty())
-      fail_line("expected the delimiter '    -1'", "compare the counts that the dataset announces with what it holds");
+      fail_line("expected the delimiter '    -1'",
+                "compare the counts that the dataset announces with what it holds");
 }
 
 void UffInput::skip_dataset() {
   do {
     if (!advance())
-      fail("the file ends before the delimiter '    -1' of the dataset", "", "the file was cut off: get it again");
+      fail("the file ends before the delimiter '    -1' of the dataset", "",
+           "the file was cut off: get it again");
   } while (!at_delimiter());
 }
 
 bool UffInput::delimiter_follows(std::uintmax_t bytes) {
   if (bytes > bytes_left()) return false;
   std::array<char, 96> tail{};
-  file_.clear();
+  stream_.clear();
   const auto resume = static_cast<std::streamoff>(next_offset_ + (end_ - at_));
-  file_.seekg(static_cast<std::streamoff>(next_offset_ + bytes));
-  file_.read(tail.data(), static_cast<std::streamsize>(tail.size()));
-  std::string_view text(tail.data(), static_cast<std::size_t>(file_.gcount()));
-  file_.clear();
-  file_.seekg(resume);
+  stream_.seekg(static_cast<std::streamoff>(next_offset_ + bytes));
+  stream_.read(tail.data(), static_cast<std::streamsize>(tail.size()));
+  std::string_view text(tail.data(), static_cast<std::size_t>(stream_.gcount()));
+  stream_.clear();
+  stream_.seekg(resume);
   text.remove_prefix(std::min(text.find_first_not_of("\r\n"), text.size()));
   return is_delimiter(text.substr(0, text.find_first_of("\r\n")));
 }
@@ -140,14 +143,14 @@ void UffInput::read_binary(char* target, std::size_t bytes) {
   const std::size_t buffered = std::min(bytes, end_ - at_);
   std::memcpy(target, buffer_.data() + at_, buffered);
   at_ += buffered;
-  file_.read(target + buffered, static_cast<std::streamsize>(bytes - buffered));
+  stream_.read(target + buffered, static_cast<std::streamsize>(bytes - buffered));
   next_offset_ += bytes;
-  if (!file_) fail("the binary values cannot be read", "", "check the disk and the file");
+  if (!stream_) fail("the binary values cannot be read", "", "check the disk and the file");
 }
 
 void UffInput::fail(std::string what, std::string_view found, std::string remedy, std::size_t column) const {
   const std::string where =
-      fmt::format("{}:{} (byte {})", path_.string(), std::max<std::size_t>(line_, 1), offset_ + column);
+      fmt::format("{}:{} (byte {})", name_, std::max<std::size_t>(line_, 1), offset_ + column);
   const std::string prefix = dataset_.empty() ? "" : fmt::format("dataset {}: ", dataset_);
   throw InputError({where, prefix + std::move(what), shown(found), std::move(remedy)});
 }

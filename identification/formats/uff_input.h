@@ -2,8 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
+#include <istream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,8 +13,8 @@ namespace wishbone {
 /// file. Lines end with LF, CR LF or CR. Knows the place in the file, so that every error names it.
 class UffInput {
  public:
-  /// Throws InputError when the file is missing, a directory or unreadable.
-  explicit UffInput(const std::filesystem::path& path);
+  /// Of a stream at its begin that can be repositioned; errors call it `name`.
+  UffInput(std::istream& stream, std::string name);
 
   /// Goes to the next line; false at the end of the file.
   bool advance();
@@ -64,8 +63,8 @@ class UffInput {
   bool fill();
   void read_line_end();
 
-  std::filesystem::path path_;
-  std::ifstream file_;
+  std::istream& stream_;
+  std::string name_;
   std::uintmax_t size_ = 0;
   std::string dataset_;
 
@@ -77,7 +76,7 @@ class UffInput {
   std::uintmax_t next_offset_ = 0;  ///< behind its end
   bool put_back_ = false;
   bool too_long_ = false;
-  bool lone_cr_ = false;    ///< the last line ended with CR alone
+  bool lone_cr_ = false;  ///< the last line ended with CR alone
   bool is_before_binary_ = false;
 };
 

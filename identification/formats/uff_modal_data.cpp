@@ -25,7 +25,9 @@ namespace {
 
 // ---- reading ------------------------------------------------------------------------------------------------
 
-bool says_something(std::string_view text) { return !trimmed(text).empty() && trimmed(text) != "NONE"; }
+bool says_something(std::string_view text) {
+  return !trimmed(text).empty() && trimmed(text) != "NONE";
+}
 
 std::string title_of(const UffFile& file, const std::filesystem::path& path) {
   if (file.header && says_something(file.header->model)) return as_utf8(trimmed(file.header->model));
@@ -40,7 +42,8 @@ std::string origin_of(const UffFile& file, const std::filesystem::path& path) {
   if (!file.header) return origin;
   if (says_something(file.header->program))
     origin += fmt::format(", written by {}", as_utf8(trimmed(file.header->program)));
-  if (says_something(file.header->written)) origin += fmt::format(" ({})", as_utf8(trimmed(file.header->written)));
+  if (says_something(file.header->written))
+    origin += fmt::format(" ({})", as_utf8(trimmed(file.header->written)));
   return origin;
 }
 
@@ -50,7 +53,8 @@ void put_positions(const UffFile& file, const UffScale& scale, const std::string
   for (const UffNode& node : file.nodes) {
     if (!frame_of.contains(node.definition_system))
       frame_of[node.definition_system] = uff_frame(file.coordinate_systems, node.definition_system, where);
-    data.node_position.col(data.node_count()) = scale.metre * frame_of[node.definition_system].global(node.position);
+    data.node_position.col(data.node_count()) =
+        scale.metre * frame_of[node.definition_system].global(node.position);
     data.node_ids.push_back(node.number);
   }
 }
@@ -76,13 +80,16 @@ void put_lines(const UffFile& file, ModalData& data) {
   };
   for (const UffTraceLine& trace : file.trace_lines) put(segments(trace));
   for (const UffElement& element : file.elements) put(uff_element_edges(element));
-  if (unknown > 0) data.provenance.push_back(fmt::format("left out {} lines to nodes without a position", unknown));
+  if (unknown > 0)
+    data.provenance.push_back(fmt::format("left out {} lines to nodes without a position", unknown));
 }
 
 void say_unused(const UffFile& file, ModalData& data) {
   std::map<std::string, int> counts;
-  for (const UffUnused& unused : file.unused) ++counts[fmt::format("dataset {}: {}", unused.dataset, unused.why)];
-  for (const auto& [what, count] : counts) data.provenance.push_back(fmt::format("not used: {} x {}", count, what));
+  for (const UffUnused& unused : file.unused)
+    ++counts[fmt::format("dataset {}: {}", unused.dataset, unused.why)];
+  for (const auto& [what, count] : counts)
+    data.provenance.push_back(fmt::format("not used: {} x {}", count, what));
   if (!file.functions.empty())
     data.provenance.push_back(fmt::format("not used: {} functions (dataset 58)", file.functions.size()));
 }
@@ -91,7 +98,8 @@ void say_unused(const UffFile& file, ModalData& data) {
 
 /// At most `bytes` bytes of UTF-8, on one line.
 std::string cut(std::string text, std::size_t bytes) {
-  std::replace_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
   if (text.size() <= bytes) return text;
   while (bytes > 0 && (static_cast<unsigned char>(text[bytes]) & 0xC0) == 0x80) --bytes;
   return text.substr(0, bytes);
@@ -114,8 +122,8 @@ UffTraceLine trace_of(const std::vector<std::array<int, 2>>& lines) {
 
 UffShape shape_of(const ModalData& data, int mode) {
   UffShape shape;
-  shape.ids = {cut(data.title, kIdWidth), fmt::format("mode {} of {}", mode + 1, data.mode_count()), "NONE", "NONE",
-               "NONE"};
+  shape.ids = {cut(data.title, kIdWidth), fmt::format("mode {} of {}", mode + 1, data.mode_count()), "NONE",
+               "NONE", "NONE"};
   shape.load_case = 1;
   shape.number = mode + 1;
   shape.frequency = data.omega[mode] / (2 * std::numbers::pi);
@@ -137,7 +145,10 @@ UffShape shape_of(const ModalData& data, int mode) {
 }  // namespace
 
 ModalData read_uff_modal_data(const std::filesystem::path& path, UffShapeAxes axes) {
-  const UffFile file = read_uff(path);
+  return uff_modal_data(read_uff(path), path, axes);
+}
+
+ModalData uff_modal_data(const UffFile& file, const std::filesystem::path& path, UffShapeAxes axes) {
   const std::string where = path.string();
   UffModes modes = collect_uff_modes(file, axes, where);
   const UffScale scale = uff_scale(file.units);

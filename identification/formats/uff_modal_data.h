@@ -22,7 +22,12 @@ namespace wishbone {
 ///
 /// `provenance` says what was assumed and left out. Throws InputError as read_uff does, and when the file has no modes or
 /// no positions of their nodes, saying what it does have.
-ModalData read_uff_modal_data(const std::filesystem::path& path, UffShapeAxes axes = UffShapeAxes::kByDataset);
+ModalData read_uff_modal_data(const std::filesystem::path& path,
+                              UffShapeAxes axes = UffShapeAxes::kByDataset);
+
+/// The same of a file that was read; `path` is its name.
+ModalData uff_modal_data(const UffFile& file, const std::filesystem::path& path,
+                         UffShapeAxes axes = UffShapeAxes::kByDataset);
 
 /// Writes modes in SI units and global axes: datasets 151, 164, 2411, 82 and one 55 for each mode.
 ///

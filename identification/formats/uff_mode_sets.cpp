@@ -22,7 +22,8 @@ bool is_complex_mode(const UffShape& shape) {
 /// Displacements first, also those that are not called so; then velocities, then accelerations. 3: no motion.
 int rank_of(int quantity) {
   constexpr std::array kUnnamed = {0, 1, 95, 96};  // unknown, general, unknown vectors of 3 and 6
-  if (quantity == kDisplacement || std::find(kUnnamed.begin(), kUnnamed.end(), quantity) != kUnnamed.end()) return 0;
+  if (quantity == kDisplacement || std::find(kUnnamed.begin(), kUnnamed.end(), quantity) != kUnnamed.end())
+    return 0;
   return quantity == kVelocity ? 1 : quantity == kAcceleration ? 2 : 3;
 }
 
@@ -32,8 +33,8 @@ std::string objection(const UffShape& shape, int rank) {
     return fmt::format("analysis type {} is no mode", shape.analysis);
   const bool is_vector = shape.characteristic == 2 || shape.characteristic == 3 || shape.characteristic == 0;
   if (!is_vector || (shape.values_per_node != 3 && shape.values_per_node != 6))
-    return fmt::format("data characteristic {} with {} values per node is no translation", shape.characteristic,
-                       shape.values_per_node);
+    return fmt::format("data characteristic {} with {} values per node is no translation",
+                       shape.characteristic, shape.values_per_node);
   if (rank_of(shape.quantity) > 2) return fmt::format("data type {} is no motion", shape.quantity);
   if (rank_of(shape.quantity) != rank) return "the same file has displacements";
   if (std::all_of(shape.values.begin(), shape.values.end(), [](double x) { return x == 0; }))
@@ -63,11 +64,13 @@ UffModeSet mode_of(const UffShape& shape) {
     mode.damping_ratio = mode.omega > 0 ? -shape.eigenvalue.real() / mode.omega : 0;
   } else {
     const bool has_only_eigenvalue = shape.frequency == 0 && shape.eigenvalue.real() > 0;
-    mode.omega = has_only_eigenvalue ? std::sqrt(shape.eigenvalue.real()) : 2 * std::numbers::pi * shape.frequency;
+    mode.omega =
+        has_only_eigenvalue ? std::sqrt(shape.eigenvalue.real()) : 2 * std::numbers::pi * shape.frequency;
     // loss factor eta = 2 zeta at resonance
     mode.damping_ratio = shape.viscous_damping != 0 ? shape.viscous_damping : shape.hysteretic_damping / 2;
   }
-  const bool has_mass = shape.analysis == kUffNormalMode && rank_of(shape.quantity) == 0 && shape.modal_mass > 0;
+  const bool has_mass =
+      shape.analysis == kUffNormalMode && rank_of(shape.quantity) == 0 && shape.modal_mass > 0;
   mode.modal_mass = has_mass ? shape.modal_mass : std::numeric_limits<double>::quiet_NaN();
   return mode;
 }
@@ -90,7 +93,8 @@ bool belong_together(const UffShape& a, const UffShape& b) {
          a.frequency == b.frequency && a.eigenvalue == b.eigenvalue;
 }
 
-std::vector<UffModeSet> grouped(const std::vector<const UffShape*>& shapes, std::vector<std::string>& provenance) {
+std::vector<UffModeSet> grouped(const std::vector<const UffShape*>& shapes,
+                                std::vector<std::string>& provenance) {
   std::vector<UffModeSet> modes;
   int repeated = 0;
   for (const UffShape* shape : shapes) {
@@ -99,7 +103,8 @@ std::vector<UffModeSet> grouped(const std::vector<const UffShape*>& shapes, std:
     };
     const auto completes = [&](const UffModeSet& mode) {
       return belong_together(*mode.parts.front(), *shape) &&
-             std::none_of(shape->nodes.begin(), shape->nodes.end(), [&](int node) { return mode.nodes.contains(node); });
+             std::none_of(shape->nodes.begin(), shape->nodes.end(),
+                          [&](int node) { return mode.nodes.contains(node); });
     };
     if (std::any_of(modes.begin(), modes.end(), [&](const auto& mode) {
           return std::any_of(mode.parts.begin(), mode.parts.end(), repeats);
@@ -111,7 +116,8 @@ std::vector<UffModeSet> grouped(const std::vector<const UffShape*>& shapes, std:
     if (mode == modes.end()) mode = modes.insert(modes.end(), mode_of(*shape));
     add_part(*mode, *shape);
   }
-  if (repeated > 0) provenance.push_back(fmt::format("left out {} datasets that repeat another one", repeated));
+  if (repeated > 0)
+    provenance.push_back(fmt::format("left out {} datasets that repeat another one", repeated));
   return modes;
 }
 
@@ -119,7 +125,8 @@ std::vector<UffModeSet> grouped(const std::vector<const UffShape*>& shapes, std:
 void leave_out_conjugates(std::vector<UffModeSet>& modes, std::vector<std::string>& provenance) {
   const std::size_t before = modes.size();
   const auto is_conjugate_of = [](const UffShape& a, const UffShape& b) {
-    return is_complex_mode(b) && std::abs(std::conj(a.eigenvalue) - b.eigenvalue) <= 1e-5 * std::abs(b.eigenvalue);
+    return is_complex_mode(b) &&
+           std::abs(std::conj(a.eigenvalue) - b.eigenvalue) <= 1e-5 * std::abs(b.eigenvalue);
   };
   const std::vector<UffModeSet> all = modes;
   std::erase_if(modes, [&](const UffModeSet& mode) {
@@ -140,13 +147,15 @@ void leave_out_zero_frequencies(std::vector<UffModeSet>& modes, std::vector<std:
   const std::size_t count =
       std::erase_if(modes, [&](const UffModeSet& mode) { return !(mode.omega > kZeroFrequency * highest); });
   if (count > 0)
-    provenance.push_back(fmt::format("left out {} modes of zero frequency: rigid-body modes follow from geometry", count));
+    provenance.push_back(
+        fmt::format("left out {} modes of zero frequency: rigid-body modes follow from geometry", count));
 }
 
 void make_damping_positive(std::vector<UffModeSet>& modes, std::vector<std::string>& provenance) {
   for (std::size_t j = 0; j < modes.size(); ++j) {
     if (modes[j].damping_ratio >= 0) continue;
-    provenance.push_back(fmt::format("mode {}: negative damping ratio {:g} set to zero", j + 1, modes[j].damping_ratio));
+    provenance.push_back(
+        fmt::format("mode {}: negative damping ratio {:g} set to zero", j + 1, modes[j].damping_ratio));
     modes[j].damping_ratio = 0;
   }
 }
@@ -157,7 +166,8 @@ std::vector<UffModeSet> uff_mode_sets(const UffFile& file, std::vector<std::stri
   std::vector<UffModeSet> modes = grouped(mode_shapes(file, provenance), provenance);
   leave_out_conjugates(modes, provenance);
   leave_out_zero_frequencies(modes, provenance);
-  std::stable_sort(modes.begin(), modes.end(), [](const auto& a, const auto& b) { return a.omega < b.omega; });
+  std::stable_sort(modes.begin(), modes.end(),
+                   [](const auto& a, const auto& b) { return a.omega < b.omega; });
   make_damping_positive(modes, provenance);
   return modes;
 }

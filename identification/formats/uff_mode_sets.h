@@ -11,12 +11,12 @@ namespace wishbone {
 
 /// One mode, put together from the datasets that hold it.
 struct UffModeSet {
-  double omega = 0;                     ///< [rad/s]
+  double omega = 0;  ///< [rad/s]
   double damping_ratio = 0;
-  double modal_mass = 0;                ///< as in the file, NaN where nothing is known
-  std::vector<const UffShape*> parts;   ///< of different nodes
-  std::unordered_set<int> nodes;        ///< of all parts
-  bool is_complex = false;              ///< a shape has imaginary parts
+  double modal_mass = 0;               ///< as in the file, NaN where nothing is known
+  std::vector<const UffShape*> parts;  ///< of different nodes
+  std::unordered_set<int> nodes;       ///< of all parts
+  bool is_complex = false;             ///< a shape has imaginary parts
 };
 
 /// The oscillating modes of a file in ascending frequency, and what was left out on the way (appended to

@@ -18,9 +18,9 @@
 namespace wishbone {
 namespace {
 
-constexpr double kAlong = 1e-6;          ///< cosines below count as zero: axes of a file have six digits
-constexpr double kCollinear = 0.95;      ///< MPC below is reported mode by mode
-using Motion = Eigen::Vector3cd;         ///< of a node, components in the axes of its shapes
+constexpr double kAlong = 1e-6;      ///< cosines below count as zero: axes of a file have six digits
+constexpr double kCollinear = 0.95;  ///< MPC below is reported mode by mode
+using Motion = Eigen::Vector3cd;     ///< of a node, components in the axes of its shapes
 
 /// Nodes that all modes know, with the axes of their components.
 struct KnownNode {
@@ -42,13 +42,14 @@ void check_positions(const UffFile& file, const std::vector<UffModeSet>& modes, 
   std::sort(missing.begin(), missing.end());
   missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
   throw InputError({where, fmt::format("{} nodes of the mode shapes have no position", missing.size()),
-                    fmt::format("node {}{}; the file holds {}", missing[0], missing.size() > 1 ? " and others" : "",
-                                describe(file)),
+                    fmt::format("node {}{}; the file holds {}", missing[0],
+                                missing.size() > 1 ? " and others" : "", describe(file)),
                     "export the geometry into the same file (dataset 15 or 2411)"});
 }
 
 bool has_local_system(const UffFile& file, const UffNode& node) {
-  return node.displacement_system != 0 && !is_undefined_global(file.coordinate_systems, node.displacement_system);
+  return node.displacement_system != 0 &&
+         !is_undefined_global(file.coordinate_systems, node.displacement_system);
 }
 
 bool is_in_displacement_systems(const UffFile& file, const std::vector<UffModeSet>& modes, UffShapeAxes axes,
@@ -56,12 +57,14 @@ bool is_in_displacement_systems(const UffFile& file, const std::vector<UffModeSe
   if (axes != UffShapeAxes::kByDataset) return axes == UffShapeAxes::kDisplacementSystems;
   const int dataset = modes.front().parts.front()->dataset;
   const bool is_mixed = std::any_of(modes.begin(), modes.end(), [&](const UffModeSet& mode) {
-    return std::any_of(mode.parts.begin(), mode.parts.end(), [&](auto* part) { return part->dataset != dataset; });
+    return std::any_of(mode.parts.begin(), mode.parts.end(),
+                       [&](auto* part) { return part->dataset != dataset; });
   });
   const bool has_local = std::any_of(file.nodes.begin(), file.nodes.end(),
                                      [&](const UffNode& node) { return has_local_system(file, node); });
   if (is_mixed && has_local)
-    throw InputError({where, "modes of datasets 55 and 2414 refer to different axes", "displacement systems that are not global",
+    throw InputError({where, "modes of datasets 55 and 2414 refer to different axes",
+                      "displacement systems that are not global",
                       "keep one kind of dataset, or say which axes the shapes have"});
   return dataset == 55;
 }
@@ -71,7 +74,8 @@ std::vector<KnownNode> known_nodes(const UffFile& file, const std::vector<UffMod
   std::map<int, Matrix3> axes_of;
   std::vector<KnownNode> nodes;
   for (const UffNode& node : file.nodes) {
-    if (!std::all_of(modes.begin(), modes.end(), [&](const auto& mode) { return mode.nodes.contains(node.number); }))
+    if (!std::all_of(modes.begin(), modes.end(),
+                     [&](const auto& mode) { return mode.nodes.contains(node.number); }))
       continue;
     const int system = in_systems ? node.displacement_system : 0;
     if (!axes_of.contains(system)) axes_of[system] = uff_frame(file.coordinate_systems, system, where).axes;
@@ -94,8 +98,8 @@ Eigen::Matrix3Xcd motions(const UffModeSet& mode, const std::unordered_map<int, 
       if (column == column_of.end()) continue;
       const double* values = part->values.data() + i * per_node;
       for (std::size_t axis = 0; axis < 3; ++axis)
-        d(static_cast<Eigen::Index>(axis), column->second) = {values[axis * step],
-                                                              part->is_complex ? values[axis * step + 1] : 0.0};
+        d(static_cast<Eigen::Index>(axis), column->second) = {
+            values[axis * step], part->is_complex ? values[axis * step + 1] : 0.0};
     }
   }
   return d;
@@ -106,13 +110,15 @@ void mark_measured(std::vector<KnownNode>& nodes, const std::vector<Eigen::Matri
   for (std::size_t i = 0; i < nodes.size(); ++i)
     for (const auto& mode : d)
       for (Eigen::Index axis = 0; axis < 3; ++axis)
-        if (mode(axis, static_cast<Eigen::Index>(i)) != 0.0) nodes[i].measured.set(static_cast<std::size_t>(axis));
+        if (mode(axis, static_cast<Eigen::Index>(i)) != 0.0)
+          nodes[i].measured.set(static_cast<std::size_t>(axis));
 }
 
 /// Whether the global axis has a part in a measured component.
 bool is_moved(const KnownNode& node, int axis) {
   for (int local = 0; local < 3; ++local)
-    if (node.measured[static_cast<std::size_t>(local)] && std::abs(node.axes(axis, local)) > kAlong) return true;
+    if (node.measured[static_cast<std::size_t>(local)] && std::abs(node.axes(axis, local)) > kAlong)
+      return true;
   return false;
 }
 
@@ -120,7 +126,8 @@ bool is_moved(const KnownNode& node, int axis) {
 bool is_skew(const KnownNode& node) {
   if (node.measured.none() || node.measured.all()) return false;
   for (int local = 0; local < 3; ++local)
-    if (node.measured[static_cast<std::size_t>(local)] && node.axes.col(local).cwiseAbs().maxCoeff() < 1 - kAlong)
+    if (node.measured[static_cast<std::size_t>(local)] &&
+        node.axes.col(local).cwiseAbs().maxCoeff() < 1 - kAlong)
       return true;
   return false;
 }
@@ -144,7 +151,8 @@ Eigen::VectorXcd global_shape(const Eigen::Matrix3Xcd& d, const std::vector<Know
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const auto& axes = nodes[rows[k].node].axes;
     shape[static_cast<Eigen::Index>(k)] =
-        (axes.row(rows[k].axis).cast<std::complex<double>>() * d.col(static_cast<Eigen::Index>(rows[k].node))).value();
+        (axes.row(rows[k].axis).cast<std::complex<double>>() * d.col(static_cast<Eigen::Index>(rows[k].node)))
+            .value();
   }
   return shape;
 }
@@ -157,8 +165,8 @@ VectorX real_shape(const Eigen::VectorXcd& psi, const UffModeSet& mode, std::siz
   const RealModes real = real_modes(s, psi);
   if (real.phase_collinearity[0] < kCollinear)
     provenance.push_back(fmt::format(
-        "mode {} at {:.6g} Hz is complex: phase collinearity {:.3f}, {:.1f} % left in the imaginary part", number,
-        mode.omega / (2 * EIGEN_PI), real.phase_collinearity[0], 100 * real.imaginary_share[0]));
+        "mode {} at {:.6g} Hz is complex: phase collinearity {:.3f}, {:.1f} % left in the imaginary part",
+        number, mode.omega / (2 * EIGEN_PI), real.phase_collinearity[0], 100 * real.imaginary_share[0]));
   return real.shapes.col(0);
 }
 
@@ -169,8 +177,9 @@ void say_axes(const UffFile& file, const std::vector<KnownNode>& nodes, bool in_
   const auto local = std::count_if(file.nodes.begin(), file.nodes.end(),
                                    [&](const UffNode& node) { return has_local_system(file, node); });
   if (local > 0)
-    provenance.push_back(fmt::format("{} nodes have displacement coordinate systems: shapes {}", local,
-                                     in_systems ? "were turned from them into global axes" : "were taken as global"));
+    provenance.push_back(
+        fmt::format("{} nodes have displacement coordinate systems: shapes {}", local,
+                    in_systems ? "were turned from them into global axes" : "were taken as global"));
   const auto skew = std::count_if(nodes.begin(), nodes.end(), is_skew);
   if (skew > 0)
     provenance.push_back(fmt::format(
@@ -179,19 +188,20 @@ void say_axes(const UffFile& file, const std::vector<KnownNode>& nodes, bool in_
 
 void say_freedoms(const UffFile& file, const std::vector<UffModeSet>& modes, std::size_t node_count,
                   std::size_t row_count, std::vector<std::string>& provenance) {
-  const bool has_rotations = std::any_of(modes.begin(), modes.end(), [](const auto& mode) {
-    return mode.parts.front()->values_per_node == 6;
-  });
+  const bool has_rotations = std::any_of(
+      modes.begin(), modes.end(), [](const auto& mode) { return mode.parts.front()->values_per_node == 6; });
   if (has_rotations) provenance.push_back("left out the rotations of shapes of six values per node");
   std::unordered_set<int> some;
   for (const UffModeSet& mode : modes) some.insert(mode.nodes.begin(), mode.nodes.end());
   if (some.size() > node_count)
-    provenance.push_back(fmt::format("left out {} nodes that some modes do not know", some.size() - node_count));
+    provenance.push_back(
+        fmt::format("left out {} nodes that some modes do not know", some.size() - node_count));
   if (row_count < 3 * node_count)
-    provenance.push_back(fmt::format("{} freedoms are zero in every mode: taken as not measured",
-                                     3 * node_count - row_count));
+    provenance.push_back(
+        fmt::format("{} freedoms are zero in every mode: taken as not measured", 3 * node_count - row_count));
   if (some.size() < file.nodes.size())
-    provenance.push_back(fmt::format("{} nodes have a position and no shape", file.nodes.size() - some.size()));
+    provenance.push_back(
+        fmt::format("{} nodes have a position and no shape", file.nodes.size() - some.size()));
 }
 
 }  // namespace

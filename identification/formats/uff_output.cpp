@@ -22,7 +22,8 @@ double finite(double x) {
 
 UffOutput::UffOutput(const std::filesystem::path& path) : path_(path), file_(path, std::ios::binary) {
   if (!file_)
-    throw NumericsError({path.string(), "the file cannot be created", "", "check the folder and its permissions"});
+    throw NumericsError(
+        {path.string(), "the file cannot be created", "", "check the folder and its permissions"});
 }
 
 void UffOutput::begin_dataset(std::string_view number) {
@@ -37,7 +38,8 @@ void UffOutput::end_dataset() {
 void UffOutput::text(std::string_view text) {
   text = without_trailing_blanks(text);
   if (text.find_first_of("\r\n") != std::string_view::npos || text.size() > 80)
-    throw InputError({"Universal File", "a text must be one line of at most 80 bytes", shown(text), "shorten it"});
+    throw InputError(
+        {"Universal File", "a text must be one line of at most 80 bytes", shown(text), "shorten it"});
   line(text.empty() || text == "    -1" ? "NONE" : text);
 }
 

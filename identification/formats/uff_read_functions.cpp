@@ -34,8 +34,10 @@ struct Layout {
 bool read_freedoms_in_columns(std::string_view line, UffFunction& f) {
   const std::array<std::pair<std::size_t, std::size_t>, 8> places = {
       {{0, 5}, {5, 10}, {15, 5}, {20, 10}, {41, 10}, {51, 4}, {66, 10}, {76, 4}}};
-  const std::array<int*, 8> targets = {&f.type,           &f.number,          &f.version,        &f.load_case,
-                                       &f.response.node,  &f.response.direction, &f.reference.node, &f.reference.direction};
+  const std::array<int*, 8> targets = {&f.type,           &f.number,
+                                       &f.version,        &f.load_case,
+                                       &f.response.node,  &f.response.direction,
+                                       &f.reference.node, &f.reference.direction};
   for (std::size_t k = 0; k < places.size(); ++k) {
     const std::string_view field = columns(line, places[k].first, places[k].second);
     const auto value = trimmed(field).empty() ? std::optional(0) : integer_in(field);
@@ -52,13 +54,13 @@ bool read_freedoms_as_words(std::string_view line, UffFunction& f) {
   const std::vector<std::string_view> words = words_of(line);
   if (words.size() != 10) return false;
   const std::array<std::pair<std::size_t, int*>, 8> targets = {{{0, &f.type},
-                                                               {1, &f.number},
-                                                               {2, &f.version},
-                                                               {3, &f.load_case},
-                                                               {5, &f.response.node},
-                                                               {6, &f.response.direction},
-                                                               {8, &f.reference.node},
-                                                               {9, &f.reference.direction}}};
+                                                                {1, &f.number},
+                                                                {2, &f.version},
+                                                                {3, &f.load_case},
+                                                                {5, &f.response.node},
+                                                                {6, &f.response.direction},
+                                                                {8, &f.reference.node},
+                                                                {9, &f.reference.direction}}};
   for (const auto& [k, target] : targets) {
     const auto value = integer_in(words[k]);
     if (!value) return false;
@@ -72,9 +74,10 @@ bool read_freedoms_as_words(std::string_view line, UffFunction& f) {
 void read_freedoms(UffInput& in, UffFunction& f) {
   const std::string_view line = in.require("function type, response and reference");
   if (!read_freedoms_in_columns(line, f) && !read_freedoms_as_words(line, f))
-    in.fail_line("expected function type, number, version, load case, then entity, node and direction of response and "
-                 "of reference",
-                 "write the record in its columns: 2(I5,I10),2(1X,A10,I10,I4)");
+    in.fail_line(
+        "expected function type, number, version, load case, then entity, node and direction of response and "
+        "of reference",
+        "write the record in its columns: 2(I5,I10),2(1X,A10,I10,I4)");
 }
 
 /// 3I10,3E13.5: ordinate type, count of points, spacing, abscissa begin and step, z.
@@ -90,7 +93,8 @@ Layout read_form(UffInput& in, UffFunction& f) {
                "write real or complex values in single or double precision");
   if (points < 0) fail_field(in, fields[1], "the count of points must not be negative", "correct the count");
   if (spacing != 0 && spacing != 1)
-    fail_field(in, fields[2], "the abscissa spacing must be 0 or 1", "write 1 for even, 0 for uneven spacing");
+    fail_field(in, fields[2], "the abscissa spacing must be 0 or 1",
+               "write 1 for even, 0 for uneven spacing");
   f.abscissa_start = real_field(in, fields[3], "the first abscissa");
   f.abscissa_step = real_field(in, fields[4], "the abscissa step");
   f.z_value = real_field(in, fields[5], "the z value");
@@ -243,7 +247,8 @@ BlockLength find_block_length(UffInput& in, const Layout& layout, std::uintmax_t
   const std::size_t size = layout.is_double ? 8 : 4;
   const std::uintmax_t equal = std::uintmax_t{layout.points} * layout.numbers_per_point() * size;
   std::vector<BlockLength> candidates = {{equal, !layout.is_double}};
-  if (layout.is_double && !layout.is_even) candidates.push_back({equal - std::uintmax_t{layout.points} * 4, true});
+  if (layout.is_double && !layout.is_even)
+    candidates.push_back({equal - std::uintmax_t{layout.points} * 4, true});
   std::stable_sort(candidates.begin(), candidates.end(), [&](const auto& a, const auto& b) {
     return (a.bytes == announced) > (b.bytes == announced);
   });
@@ -256,7 +261,8 @@ BlockLength find_block_length(UffInput& in, const Layout& layout, std::uintmax_t
 }
 
 template <class T>
-std::vector<T> read_binary_values(UffInput& in, const Layout& layout, std::uintmax_t announced, UffFunction& f) {
+std::vector<T> read_binary_values(UffInput& in, const Layout& layout, std::uintmax_t announced,
+                                  UffFunction& f) {
   const BlockLength block = find_block_length(in, layout, announced);
   if (!layout.is_even && block.has_single_abscissa) return read_uneven_values<float, T>(in, layout, f);
   if (!layout.is_even) return read_uneven_values<double, T>(in, layout, f);

@@ -46,12 +46,15 @@ void add(const UffInput& in, UffContents& contents, const UffNode& node) {
   }
   const UffNode& first = contents.file.nodes[found->second];
   const double size = std::max(first.position.norm(), node.position.norm());
-  if ((first.position - node.position).norm() > 1e-5 * size || first.definition_system != node.definition_system ||
+  if ((first.position - node.position).norm() > 1e-5 * size ||
+      first.definition_system != node.definition_system ||
       first.displacement_system != node.displacement_system)
-    in.fail("a node is defined twice, differently", fmt::format("node {}", node.number), "number each node once");
+    in.fail("a node is defined twice, differently", fmt::format("node {}", node.number),
+            "number each node once");
 }
 
-constexpr std::string_view kSystemRecord = "number, type, reference, colour and method of a coordinate system";
+constexpr std::string_view kSystemRecord =
+    "number, type, reference, colour and method of a coordinate system";
 
 }  // namespace
 
@@ -79,7 +82,8 @@ void read_uff_coordinate_matrices(UffInput& in, UffContents& contents) {
   in.require("the part name");
   while (in.advance_in_dataset()) {
     if (trimmed(in.text()).empty()) continue;
-    const std::vector<int> head = integers_of_line(in, 10, 3, "number, type and colour of a coordinate system");
+    const std::vector<int> head =
+        integers_of_line(in, 10, 3, "number, type and colour of a coordinate system");
     UffCoordinateSystem system{head[0], head[1], 0, head[2], {}, Vector3::Zero(), Matrix3::Identity()};
     system.name = trimmed(in.require("the name of a coordinate system"));
     std::vector<double> p;
@@ -102,7 +106,8 @@ void read_uff_nodes(UffInput& in, UffContents& contents) {
     if (trimmed(in.text()).empty()) continue;
     const auto fields = number_fields(in, {10, 10, 10, 10, 13, 13, 13}, 7);
     if (fields.size() != 7)
-      in.fail_line("expected a node: number, two coordinate systems, colour, x, y and z", "complete the record");
+      in.fail_line("expected a node: number, two coordinate systems, colour, x, y and z",
+                   "complete the record");
     UffNode node{integer_field(in, fields[0], "the node number"),
                  integer_field(in, fields[1], "the definition coordinate system"),
                  integer_field(in, fields[2], "the displacement coordinate system"),

@@ -11,8 +11,9 @@ namespace wishbone {
 /// Seven lines of 80 characters; programs leave out the last ones.
 void read_uff_header(UffInput& in, UffContents& contents) {
   UffHeader header;
-  const std::vector<std::string*> lines = {&header.model, &header.description, &header.database_program,
-                                           &header.created, &header.saved, &header.program, &header.written};
+  const std::vector<std::string*> lines = {&header.model,   &header.description, &header.database_program,
+                                           &header.created, &header.saved,       &header.program,
+                                           &header.written};
   for (std::size_t k = 0; in.advance_in_dataset(); ++k)
     if (k < lines.size()) *lines[k] = without_trailing_blanks(in.text());
   if (!contents.file.header) contents.file.header = header;
@@ -37,8 +38,8 @@ void read_uff_units(UffInput& in, UffContents& contents) {
     in.fail("expected factors of length, force and temperature and a temperature offset",
             std::to_string(factors.size()) + " numbers", "write the three records of dataset 164");
   if (!(factors[0] > 0 && factors[1] > 0))
-    in.fail("the factors of length and force must be positive", std::to_string(std::min(factors[0], factors[1])),
-            "write how many file units make one SI unit");
+    in.fail("the factors of length and force must be positive",
+            std::to_string(std::min(factors[0], factors[1])), "write how many file units make one SI unit");
   units.length = factors[0];
   units.force = factors[1];
   if (factors.size() > 2) units.temperature = factors[2];

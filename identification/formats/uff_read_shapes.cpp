@@ -108,7 +108,8 @@ void read_uff_data_at_nodes(UffInput& in, UffContents& contents) {
   UffShape shape;
   shape.line = in.line();
   read_ids(in, shape);
-  if (!read_definition(in, shape)) return skip_unused(in, contents, shape, "its values are neither real nor complex");
+  if (!read_definition(in, shape))
+    return skip_unused(in, contents, shape, "its values are neither real nor complex");
 
   in.require_filled("the counts and integers of the analysis");
   const std::vector<int> record = integers_of_line(in, 10, 2, "a count or integer of the analysis");
@@ -133,14 +134,16 @@ void read_uff_analysis_data(UffInput& in, UffContents& contents) {
   const int location = integers_of_line(in, 10, 1, "the dataset location")[0];
   if (location != 1) return skip_unused(in, contents, shape, "its values are not at nodes");
   read_ids(in, shape);
-  if (!read_definition(in, shape)) return skip_unused(in, contents, shape, "its values are neither real nor complex");
+  if (!read_definition(in, shape))
+    return skip_unused(in, contents, shape, "its values are neither real nor complex");
 
   in.require_filled("the integers of the analysis");
   const std::vector<int> integers = integers_of_line(in, 10, 8, "an integer of the analysis");
   in.require("the creation option");
   const std::vector<double> first = reals_of_record(in, 6, "a number of the analysis");
   const std::vector<double> second = reals_of_record(in, 6, "a number of the analysis");
-  const bool in_time = shape.analysis == kUffTransient, in_frequency = shape.analysis == kUffFrequencyResponse;
+  const bool in_time = shape.analysis == kUffTransient,
+             in_frequency = shape.analysis == kUffFrequencyResponse;
   shape.load_case = integers[4];
   shape.number = integers[in_time ? 6 : in_frequency ? 7 : 5];
   shape.time = first[0];

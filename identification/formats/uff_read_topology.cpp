@@ -25,7 +25,8 @@ std::vector<int> read_nodes(UffInput& in, std::size_t count) {
   const bool is_padded = std::all_of(nodes.begin() + static_cast<std::ptrdiff_t>(count), nodes.end(),
                                      [](int node) { return node == 0; });
   if (!is_padded)
-    in.fail_line(fmt::format("more than the announced {} node numbers", count), "correct the count or the list");
+    in.fail_line(fmt::format("more than the announced {} node numbers", count),
+                 "correct the count or the list");
   nodes.resize(count);
   return nodes;
 }
@@ -36,7 +37,8 @@ std::vector<int> read_nodes(UffInput& in, std::size_t count) {
 void read_uff_trace_line(UffInput& in, UffContents& contents) {
   while (in.advance_in_dataset()) {
     if (trimmed(in.text()).empty()) continue;
-    const std::vector<int> head = integers_of_line(in, 10, 3, "number, count of nodes and colour of a trace line");
+    const std::vector<int> head =
+        integers_of_line(in, 10, 3, "number, count of nodes and colour of a trace line");
     if (head[1] < 0 || static_cast<std::uintmax_t>(head[1]) > in.bytes_left() / 2)
       in.fail_line(fmt::format("a trace line of {} nodes does not fit into the rest of the file", head[1]),
                    "correct the count");
@@ -63,7 +65,8 @@ void read_uff_elements(UffInput& in, UffContents& contents) {
                    "complete the record");
     const int count = head[5];
     if (count < 1 || count > kMostNodesPerElement)
-      in.fail_line(fmt::format("an element must have 1 to {} nodes", kMostNodesPerElement), "correct the count");
+      in.fail_line(fmt::format("an element must have 1 to {} nodes", kMostNodesPerElement),
+                   "correct the count");
     if (is_uff_beam(head[1])) {
       in.require_filled("orientation node and cross sections of a beam");
       integers_of_line(in, 10, 3, "orientation node or cross section");

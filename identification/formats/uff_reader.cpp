@@ -1,9 +1,12 @@
 #include "identification/formats/uff_reader.h"
 
+#include <algorithm>
 #include <array>
+#include <fstream>
 #include <string>
 #include <utility>
 
+#include "core/error.h"
 #include "identification/formats/uff_datasets.h"
 #include "identification/formats/uff_text.h"
 
@@ -51,15 +54,29 @@ void read_dataset(UffInput& in, UffContents& contents) {
 }  // namespace
 
 UffFile read_uff(const std::filesystem::path& path) {
-  UffInput in(path);
+  const auto refuse = [&](std::string what, std::string remedy) {
+    throw InputError({path.string(), std::move(what), "", std::move(remedy)});
+  };
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) refuse("there is no such file", "check the name");
+  if (!std::filesystem::is_regular_file(status)) refuse("this is not a file", "name a Universal File");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) refuse("the file cannot be opened", "check its permissions");
+  return read_uff(file, path.string());
+}
+
+UffFile read_uff(std::istream& stream, const std::string& name) {
+  UffInput in(stream, name);
   UffContents contents;
   bool is_empty = true;
   while (in.advance()) {
     if (trimmed(in.text()).empty()) continue;
     in.set_dataset("");
     if (!in.at_delimiter())
-      in.fail_line("expected the delimiter '    -1' in front of a dataset",
-                   is_empty ? "name a Universal File (.uff, .unv)" : "close the dataset before it by '    -1'");
+      in.fail_line(
+          "expected the delimiter '    -1' in front of a dataset",
+          is_empty ? "name a Universal File (.uff, .unv)" : "close the dataset before it by '    -1'");
     if (!in.advance()) in.fail("the file ends where a dataset begins", "", "remove the last delimiter");
     is_empty = false;
     if (!in.at_delimiter()) read_dataset(in, contents);

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <istream>
+#include <string>
 
 #include "identification/formats/uff_file.h"
 
@@ -18,5 +20,7 @@ namespace wishbone {
 /// for a file that is missing, cut off or not a Universal File, counts that do not fit, numbers that are malformed,
 /// infinite or not a number, and nodes or coordinate systems that are defined twice, differently.
 UffFile read_uff(const std::filesystem::path& path);
+/// The same from a stream that can be repositioned; errors call it `name`.
+UffFile read_uff(std::istream& stream, const std::string& name);
 
 }  // namespace wishbone

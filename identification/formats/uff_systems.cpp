@@ -14,7 +14,8 @@ namespace {
 constexpr int kGlobal = 1;
 
 auto find(const std::vector<UffCoordinateSystem>& systems, int number) {
-  return std::find_if(systems.begin(), systems.end(), [&](const auto& system) { return system.number == number; });
+  return std::find_if(systems.begin(), systems.end(),
+                      [&](const auto& system) { return system.number == number; });
 }
 
 }  // namespace

@@ -13,7 +13,9 @@ namespace {
 constexpr std::string_view kBlanks = " \t";
 constexpr std::size_t kLongestShown = 60;
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
 
 std::size_t digits_at(std::string_view text, std::size_t at) {
   std::size_t n = 0;
@@ -91,8 +93,8 @@ std::string shown(std::string_view found) {
   if (found.empty()) return "";
   std::string text = as_utf8(found.substr(0, kLongestShown));
   std::replace_if(
-      text.begin(), text.end(),
-      [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, '?');
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; },
+      '?');
   return fmt::format("'{}{}'", text, found.size() > kLongestShown ? "..." : "");
 }
 

@@ -32,7 +32,9 @@ constexpr std::array<System, 11> kSystems = {{{},
 
 constexpr int kUserDefined = 9;
 
-bool differ(double a, double b) { return std::abs(a - b) > 1e-4 * b; }
+bool differ(double a, double b) {
+  return std::abs(a - b) > 1e-4 * b;
+}
 
 }  // namespace
 
@@ -45,8 +47,8 @@ UffScale uff_scale(const std::optional<UffUnits>& units) {
   const bool contradicts = units->code != kUserDefined &&
                            (differ(scale.metre, system.metres) || differ(scale.newton, system.newtons));
   if (contradicts)
-    scale.provenance += fmt::format("; the code means {:g} m and {:g} N, the factors were used", system.metres,
-                                    system.newtons);
+    scale.provenance += fmt::format("; the code means {:g} m and {:g} N, the factors were used",
+                                    system.metres, system.newtons);
   return scale;
 }
 

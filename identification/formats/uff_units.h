@@ -9,8 +9,8 @@ namespace wishbone {
 
 /// What turns numbers of a file into SI.
 struct UffScale {
-  double metre = 1;      ///< SI length = file length * metre
-  double newton = 1;     ///< SI force = file force * newton
+  double metre = 1;        ///< SI length = file length * metre
+  double newton = 1;       ///< SI force = file force * newton
   std::string provenance;  ///< the system of units and where it was taken from
 
   /// Of masses: F = m a with the second as unit of time in all systems.

@@ -13,7 +13,9 @@
 namespace wishbone {
 namespace {
 
-std::size_t ordinates_per_point(const UffFunction& f) { return f.is_complex ? 2 : 1; }
+std::size_t ordinates_per_point(const UffFunction& f) {
+  return f.is_complex ? 2 : 1;
+}
 
 void check(const UffFunction& f) {
   const auto refuse = [](std::string what, std::size_t value, std::string remedy) {
@@ -93,7 +95,8 @@ void write_binary_values(UffOutput& out, const UffFunction& f, const std::vector
   const bool reversed = f.is_big_endian != (std::endian::native == std::endian::big);
   const std::size_t per_point = ordinates_per_point(f);
   for (std::size_t k = 0; k < values.size(); ++k) {
-    if (!f.is_even && k % per_point == 0) put_binary(out, static_cast<T>(f.abscissa[k / per_point]), reversed);
+    if (!f.is_even && k % per_point == 0)
+      put_binary(out, static_cast<T>(f.abscissa[k / per_point]), reversed);
     put_binary(out, values[k], reversed);
   }
 }
@@ -104,8 +107,8 @@ void write_uff_function(UffOutput& out, const UffFunction& f) {
   check(f);
   const std::size_t bytes = (f.value_count() + f.abscissa.size()) * (f.is_double() ? 8 : 4);
   if (f.is_binary)
-    out.begin_dataset(fmt::format("    58b{:6}{:6}{:12}{:12}{:6}{:6}{:12}{:12}", f.is_big_endian ? 2 : 1, 2, 11, bytes,
-                                  0, 0, 0, 0));
+    out.begin_dataset(fmt::format("    58b{:6}{:6}{:12}{:12}{:6}{:6}{:12}{:12}", f.is_big_endian ? 2 : 1, 2,
+                                  11, bytes, 0, 0, 0, 0));
   else
     out.begin_dataset("58");
   write_heading(out, f);

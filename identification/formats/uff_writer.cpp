@@ -15,8 +15,8 @@ namespace {
 
 void write(UffOutput& out, const UffHeader& header) {
   out.begin_dataset("151");
-  for (const std::string* text : {&header.model, &header.description, &header.database_program, &header.created,
-                                  &header.saved, &header.program, &header.written})
+  for (const std::string* text : {&header.model, &header.description, &header.database_program,
+                                  &header.created, &header.saved, &header.program, &header.written})
     out.text(*text);
   out.end_dataset();
 }
@@ -60,8 +60,8 @@ void write(UffOutput& out, const std::vector<UffElement>& elements) {
   if (elements.empty()) return;
   out.begin_dataset("2412");
   for (const UffElement& element : elements) {
-    out.integers(std::array{element.number, element.descriptor, element.physical_property, element.material_property,
-                            element.color, static_cast<int>(element.nodes.size())},
+    out.integers(std::array{element.number, element.descriptor, element.physical_property,
+                            element.material_property, element.color, static_cast<int>(element.nodes.size())},
                  6);
     if (is_uff_beam(element.descriptor)) out.integers(std::array{0, 0, 0}, 3);
     out.integers(element.nodes, 8);
@@ -118,7 +118,8 @@ void write_analysis(UffOutput& out, const UffShape& s) {
 
 void write_definition(UffOutput& out, const UffShape& s) {
   out.integers(
-      std::array{s.model, s.analysis, s.characteristic, s.quantity, s.is_complex ? 5 : 2, s.values_per_node}, 6);
+      std::array{s.model, s.analysis, s.characteristic, s.quantity, s.is_complex ? 5 : 2, s.values_per_node},
+      6);
 }
 
 void write_data_at_nodes(UffOutput& out, const UffShape& shape) {

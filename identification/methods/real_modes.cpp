@@ -24,8 +24,8 @@ void check(const Eigen::VectorXcd& s, const Eigen::MatrixXcd& psi) {
   for (Eigen::Index j = 0; j < s.size(); ++j) {
     const double size = std::abs(s[j]), length = psi.col(j).norm();
     if (!(size > 0 && std::isfinite(size)))
-      refuse(fmt::format("the eigenvalue of mode {} must be finite and not zero", j + 1), fmt::format("|s| = {}", size),
-             "leave rigid-body modes out");
+      refuse(fmt::format("the eigenvalue of mode {} must be finite and not zero", j + 1),
+             fmt::format("|s| = {}", size), "leave rigid-body modes out");
     if (!(length > 0 && std::isfinite(length)))
       refuse(fmt::format("the shape of mode {} must be finite and not zero", j + 1),
              fmt::format("length {}", length), "leave the mode out");

@@ -37,8 +37,8 @@ TEST(UffNumbers, AreWhatFortranWrites) {
   EXPECT_THAT(real_in("1.25-101"), Optional(1.25e-101));
   EXPECT_THAT(real_in("1.25+101"), Optional(1.25e101));
   EXPECT_THAT(real_in("1.0E-400"), Optional(0.0));
-  for (const char* text : {"", " ", ".", "-", "E5", "1.0E", "1.0E+", "NaN", "Inf", "-inf", "1e999", "0x10", "1.0 2.0",
-                           "1.0-2.0", "1,5", "--1", "1.0EE5", "****"})
+  for (const char* text : {"", " ", ".", "-", "E5", "1.0E", "1.0E+", "NaN", "Inf", "-inf", "1e999", "0x10",
+                           "1.0 2.0", "1.0-2.0", "1,5", "--1", "1.0EE5", "****"})
     EXPECT_EQ(real_in(text), std::nullopt) << text;
   EXPECT_THAT(integer_in(" 42 "), Optional(42));
   EXPECT_THAT(integer_in("+3."), Optional(3));
@@ -55,7 +55,9 @@ TEST(UffNumbers, MessagesAreValidText) {
 
 // ---- lines and columns --------------------------------------------------------------------------------------
 
-const std::string kNode = "    -1\n    15\n         4         0         2         8 -2.40000E+00 -9.50000E-01  1.00000E+02\n    -1\n";
+const std::string kNode =
+    "    -1\n    15\n         4         0         2         8 -2.40000E+00 -9.50000E-01  1.00000E+02\n    "
+    "-1\n";
 
 void expect_node_4(const UffFile& file) {
   ASSERT_EQ(file.nodes.size(), 1u);
@@ -78,10 +80,13 @@ TEST(UffDialects, NumbersMayLeaveTheirColumns) {
   const auto node = [](const std::string& line) { return "    -1\n    15\n" + line + "\n    -1\n"; };
   expect_node_4(read_text(node("4 0 2 8 -2.4 -.95 100.")));
   expect_node_4(read_text(node("  4\t0\t2\t8\t-2.4\t-0.95\t1.0D+002")));
-  expect_node_4(read_text(node("         4         0         2         8-2.400000E+00-9.500000E-01 1.000000E+02")));
-  expect_node_4(read_text(node("4         0         2         8         -2.40000D+00 -9.50000D-01 1.00000D+02")));
+  expect_node_4(
+      read_text(node("         4         0         2         8-2.400000E+00-9.500000E-01 1.000000E+02")));
+  expect_node_4(
+      read_text(node("4         0         2         8         -2.40000D+00 -9.50000D-01 1.00000D+02")));
   expect_node_4(read_text(node("4 0 2 8 -2.4E+00-9.5E-01+1.0E+02")));
-  expect_node_4(read_text(node("         4                   2         8 -2.40000E+00 -9.50000E-01  1.00000E+02")));
+  expect_node_4(
+      read_text(node("         4                   2         8 -2.40000E+00 -9.50000E-01  1.00000E+02")));
 }
 
 TEST(UffDialects, NumbersOfTenDigitsTouch) {
@@ -92,8 +97,10 @@ TEST(UffDialects, NumbersOfTenDigitsTouch) {
 
 TEST(UffDialects, MinusOneInDataEndsNoDataset) {
   const UffFile file = read_text(
-      "    -1\n    82\n         1         4         1\nNONE\n        -1         5        -1         6\n    -1\n"
-      "    -1\n  2412\n         9        11        -1        -1         1         2\n        -1        -1        -1\n"
+      "    -1\n    82\n         1         4         1\nNONE\n        -1         5        -1         6\n    "
+      "-1\n"
+      "    -1\n  2412\n         9        11        -1        -1         1         2\n        -1        -1    "
+      "    -1\n"
       "         5         6\n    -1\n");
   EXPECT_THAT(file.trace_lines.at(0).nodes, ElementsAre(-1, 5, -1, 6));
   EXPECT_EQ(file.elements.at(0).physical_property, -1);
@@ -102,13 +109,16 @@ TEST(UffDialects, MinusOneInDataEndsNoDataset) {
 
 TEST(UffDialects, ATraceLineMayBeFilledUpWithZeros) {
   const UffFile file = read_text(
-      "    -1\n    82\n         1         2         1\nNONE\n         5         6         0         0         0         0"
-      "         0         0\n         0         0         0         0         0         0         0         0\n    -1\n");
+      "    -1\n    82\n         1         2         1\nNONE\n         5         6         0         0        "
+      " 0         0"
+      "         0         0\n         0         0         0         0         0         0         0         "
+      "0\n    -1\n");
   EXPECT_THAT(file.trace_lines.at(0).nodes, ElementsAre(5, 6));
 }
 
 TEST(UffDialects, UnitsMayTouchTheirCodeAndLeaveOutTemperature) {
-  const UffFile file = read_text("    -1\n   164\n         5mm (milli-newton)            2\n 1.0D+03 1.0D+03\n    -1\n");
+  const UffFile file =
+      read_text("    -1\n   164\n         5mm (milli-newton)            2\n 1.0D+03 1.0D+03\n    -1\n");
   EXPECT_EQ(file.units->code, 5);
   EXPECT_EQ(file.units->description, "mm (milli-newton)");
   EXPECT_EQ(file.units->temperature_mode, 2);
@@ -117,7 +127,8 @@ TEST(UffDialects, UnitsMayTouchTheirCodeAndLeaveOutTemperature) {
 
 TEST(UffDialects, ComplexValuesOfAModeMayTouch) {
   const UffFile file = read_text(
-      "    -1\n    55\nTEST\nNONE\nNONE\nNONE\n    999999         3\n         1         3         2         8         5"
+      "    -1\n    55\nTEST\nNONE\nNONE\nNONE\n    999999         3\n         1         3         2         "
+      "8         5"
       "         3\n         2         6         0         1\n"
       "-1.111111E-01 4.111111E+01 4.111111E+03-3.111111E+03-1.111110E+05-2.111110E+05\n    111111\n"
       " 0.000000E+00 0.000000E+00 1.111111E-01-9.111111E-02-7.111111E-03-4.111111E-03\n    -1\n");
@@ -132,8 +143,10 @@ TEST(UffDialects, ComplexValuesOfAModeMayTouch) {
 
 TEST(UffDialects, MatricesOfCoordinateSystemsHaveTheirAxesInRows) {
   const UffFile file = read_text(
-      "    -1\n  2420\n         1\nPart1\n         3         0         2\nCS3\n   0.0D+00   1.0D+00   0.0D+00\n"
-      "  -1.0D+00   0.0D+00   0.0D+00\n   0.0D+00   0.0D+00   1.0D+00\n   5.0D+00   6.0D+00   7.0D+00\n    -1\n");
+      "    -1\n  2420\n         1\nPart1\n         3         0         2\nCS3\n   0.0D+00   1.0D+00   "
+      "0.0D+00\n"
+      "  -1.0D+00   0.0D+00   0.0D+00\n   0.0D+00   0.0D+00   1.0D+00\n   5.0D+00   6.0D+00   7.0D+00\n    "
+      "-1\n");
   const UffCoordinateSystem& system = file.coordinate_systems.at(0);
   EXPECT_EQ(system.number, 3);
   EXPECT_EQ(system.axes.col(0), Vector3::UnitY());
@@ -157,12 +170,14 @@ std::string bytes_of(const std::vector<T>& numbers) {
 }
 
 std::string binary_head(std::size_t bytes, const std::string& form) {
-  return function_head("    58b     1     2          11" + std::string(12 - std::to_string(bytes).size(), ' ') +
-                           std::to_string(bytes) + "     0     0           0           0",
+  return function_head("    58b     1     2          11" +
+                           std::string(12 - std::to_string(bytes).size(), ' ') + std::to_string(bytes) +
+                           "     0     0           0           0",
                        form);
 }
 
-const std::string kThreeComplexDoubles = "         6         3         1  0.00000E+00  1.00000E+00  0.00000E+00";
+const std::string kThreeComplexDoubles =
+    "         6         3         1  0.00000E+00  1.00000E+00  0.00000E+00";
 const std::vector<double> kSix = {1, -2, 3.5, 1e-300, 0, 10};
 
 std::vector<double> six_values(const std::string& text) {
@@ -185,8 +200,8 @@ TEST(UffDialects, WrongByteCountsAreFoundOutByTheCountOfPoints) {
 
 TEST(UffDialects, LineEndsInABinaryBlockAreValues) {
   std::vector<double> values(6);
-  std::string bytes = std::string(8, '\n') + std::string(8, '\r') + "\r\n\r\n\r\n\r\n" + "    -1\n " + "\n    -1\n" +
-                      std::string(8, '\n');
+  std::string bytes = std::string(8, '\n') + std::string(8, '\r') + "\r\n\r\n\r\n\r\n" + "    -1\n " +
+                      "\n    -1\n" + std::string(8, '\n');
   std::memcpy(values.data(), bytes.data(), 48);
   for (const char* end : {"\n", "\r\n", "\r"}) {
     const std::string head = replaced(binary_head(48, kThreeComplexDoubles), "\n", end);
@@ -197,7 +212,8 @@ TEST(UffDialects, LineEndsInABinaryBlockAreValues) {
 TEST(UffDialects, AbscissaOfABinaryBlockMayBeSingleBesideDoubleValues) {
   const std::string form = "         4         3         0  0.00000E+00  0.00000E+00  0.00000E+00";
   std::string block;
-  for (const float x : {1.0f, 2.5f, 4.0f}) block += bytes_of(std::vector{x}) + bytes_of(std::vector{10.0 * x});
+  for (const float x : {1.0f, 2.5f, 4.0f})
+    block += bytes_of(std::vector{x}) + bytes_of(std::vector{10.0 * x});
   const UffFile file = read_text(binary_head(36, form) + block + "    -1\n");
   EXPECT_THAT(file.functions.at(0).abscissa, ElementsAre(1, 2.5, 4));
   EXPECT_THAT(std::get<std::vector<double>>(file.functions[0].values), ElementsAre(10, 25, 40));
@@ -207,9 +223,12 @@ TEST(UffDialects, TextValuesMayTouchAndSpreadOverLines) {
   const std::string head =
       function_head("    58", "         2         5         1  0.00000E+00  1.00000E+00  0.00000E+00");
   const std::vector<float> expected = {1, -2, 3, -4, 5};
-  for (const char* rows : {" 1.00000E+00-2.00000E+00 3.00000E+00-4.00000E+00 5.00000E+00\n", "1.0 -2.0 3.0\n\n-4.0\n5.0\n",
-                           "1 -2 3 -4 5\n", "1.0E+00-2.0E+00+3.0D+000-4.0E0\n  5.\n"})
-    EXPECT_EQ(std::get<std::vector<float>>(read_text(head + rows + "    -1\n").functions.at(0).values), expected) << rows;
+  for (const char* rows :
+       {" 1.00000E+00-2.00000E+00 3.00000E+00-4.00000E+00 5.00000E+00\n", "1.0 -2.0 3.0\n\n-4.0\n5.0\n",
+        "1 -2 3 -4 5\n", "1.0E+00-2.0E+00+3.0D+000-4.0E0\n  5.\n"})
+    EXPECT_EQ(std::get<std::vector<float>>(read_text(head + rows + "    -1\n").functions.at(0).values),
+              expected)
+        << rows;
 }
 
 }  // namespace

@@ -15,7 +15,9 @@ namespace {
 constexpr std::size_t kPoints = 50'000'000;  // 200 MB
 constexpr std::size_t kChunk = 1'000'000;
 
-float value_at(std::size_t k) { return static_cast<float>((k * 2654435761u) % 1000003u) - 500000.0f; }
+float value_at(std::size_t k) {
+  return static_cast<float>((k * 2654435761u) % 1000003u) - 500000.0f;
+}
 
 void write_large_file(const std::string& name) {
   std::ofstream out(name, std::ios::binary);
@@ -52,7 +54,8 @@ TEST(UffReader, NeedsNoMoreMemoryThanTheDataOfALargeBinaryFile) {
   EXPECT_EQ(wrong, 0u);
 #ifndef __SANITIZE_ADDRESS__  // whose bookkeeping grows with the data
   EXPECT_LE(growth, 4 * kPoints + 16'000'000);
-  RecordProperty("megabytes_beyond_the_data", static_cast<int>((static_cast<double>(growth) - 4.0 * kPoints) / 1e6));
+  RecordProperty("megabytes_beyond_the_data",
+                 static_cast<int>((static_cast<double>(growth) - 4.0 * kPoints) / 1e6));
 #else
   EXPECT_GT(growth, 0u);
 #endif

@@ -28,7 +28,8 @@ void expect_six_digits(double actual, double expected) {
 
 TEST(UffRoundTrip, OfHeaderAndUnitsIsExact) {
   UffFile file;
-  file.header = {"model", "description with blanks", "database", "01-Jan-26 10:00:00", "saved", "program", "written"};
+  file.header = {"model",  "description with blanks", "database", "01-Jan-26 10:00:00", "saved", "program",
+                 "written"};
   file.units = {9, "furlongs", 1, 1 / 201.168, 1 / 0.138254954376, 1.8, 459.67};
   const UffFile back = written_and_read(file);
   EXPECT_EQ(back.header->model, "model");
@@ -45,7 +46,8 @@ TEST(UffRoundTrip, OfHeaderAndUnitsIsExact) {
 
 TEST(UffRoundTrip, OfNodesElementsAndLinesIsExact) {
   UffFile file;
-  file.nodes = {{7, 0, 3, 11, {1.0 / 3, -2e-17, 1e101}}, {2000000000, 3, 0, 1, {-1.2345678901234567e-101, 0, -5}}};
+  file.nodes = {{7, 0, 3, 11, {1.0 / 3, -2e-17, 1e101}},
+                {2000000000, 3, 0, 1, {-1.2345678901234567e-101, 0, -5}}};
   file.elements = {{1, 11, 2, 3, 4, {7, 2000000000}}, {2, 116, 1, 1, 8, std::vector<int>(20, 7)}};
   file.trace_lines = {{1, 5, "a line", {7, 2000000000, 0, 7, 7, 7, 7, 7, 7, 7}}};
   const UffFile back = written_and_read(file);
@@ -164,7 +166,8 @@ UffFunction example_function(std::size_t points, bool is_complex, bool is_even) 
   for (std::size_t k = 0; k < points * (is_complex ? 2 : 1); ++k)
     values.push_back(static_cast<T>((k % 3 ? -1 : 1) * std::exp2(static_cast<double>(k % 40) - 20) / 3));
   f.values = values;
-  for (std::size_t k = 0; !is_even && k < points; ++k) f.abscissa.push_back(0.5 + 0.25 * static_cast<double>(k * k));
+  for (std::size_t k = 0; !is_even && k < points; ++k)
+    f.abscissa.push_back(0.5 + 0.25 * static_cast<double>(k * k));
   return f;
 }
 
@@ -204,7 +207,8 @@ void check_functions(double text_digits) {
   for (const bool is_complex : {false, true})
     for (const bool is_even : {false, true})
       for (const std::size_t points : {0u, 1u, 2u, 7u, 100u}) {
-        SCOPED_TRACE(testing::Message() << "complex " << is_complex << " even " << is_even << " points " << points);
+        SCOPED_TRACE(testing::Message()
+                     << "complex " << is_complex << " even " << is_even << " points " << points);
         UffFunction text = example_function<T>(points, is_complex, is_even), little = text, big = text;
         little.is_binary = big.is_binary = big.is_big_endian = true;
         UffFile file;
