@@ -6,9 +6,14 @@
 
 #include "app/command.h"
 #include "app/meta_text.h"
+#include "app/modal_summary.h"
 #include "app/table.h"
+#include "app/universal_file_summary.h"
 #include "core/error.h"
 #include "core/hdf5.h"
+#include "identification/formats/modal_file.h"
+#include "identification/formats/mode_file.h"
+#include "identification/formats/uff_reader.h"
 
 namespace wishbone {
 
@@ -28,7 +33,8 @@ struct DatasetFacts {
 struct Facts {
   std::vector<DatasetFacts> datasets;
   std::map<std::string, hdf5::Value> meta, run;
-  VectorX time;  ///< empty when the file has none
+  VectorX time;                    ///< empty when the file has none
+  std::optional<ModalData> modes;  ///< of a mode file
 };
 
 Facts gather(const hdf5::File& file) {
@@ -40,6 +46,7 @@ Facts gather(const hdf5::File& file) {
   }
   if (file.contains("/meta")) facts.meta = file.open_group("/meta").attributes();
   if (file.contains("/meta/run")) facts.run = file.open_group("/meta/run").attributes();
+  if (is_mode_file(file)) facts.modes = read_mode_file(file);
   if (file.contains("/time")) facts.time = file.read_matrix("/time");
   return facts;
 }
@@ -60,13 +67,16 @@ void print_lines(const Facts& facts, const Options& options) {
   if (facts.time.size() > 0)
     fmt::print("time: {:.6g} s to {:.6g} s, {} rows\n", facts.time[0], facts.time[facts.time.size() - 1],
                facts.time.size());
+  if (facts.modes) print_modal_data(*facts.modes);
   fmt::print("\n");
   Table table({"dataset", "shape", "unit", "frame", "about"}, 5);
   for (const DatasetFacts& d : facts.datasets)
     table.add_row({d.path, fmt::format("[{}]", fmt::join(d.shape, ", ")), d.units, d.frame, d.about});
   fmt::print("{}", table.text());
-  if (!facts.meta.empty()) fmt::print("\nmeta\n");
-  print_meta(facts.meta);
+  if (!facts.meta.empty() && !facts.modes) {
+    fmt::print("\nmeta\n");
+    print_meta(facts.meta);
+  }
   if (!facts.run.empty()) fmt::print("\nexecution\n");
   print_meta(facts.run);
 }
@@ -82,6 +92,7 @@ void print_json(const Facts& facts, const Options& options) {
   if (facts.time.size() > 0)
     out["time"] = {
         {"first", facts.time[0]}, {"last", facts.time[facts.time.size() - 1]}, {"rows", facts.time.size()}};
+  if (facts.modes) out["modal_data"] = json_of(*facts.modes);
   out["datasets"] = nlohmann::ordered_json::array();
   for (const DatasetFacts& d : facts.datasets)
     out["datasets"].push_back(
@@ -91,12 +102,44 @@ void print_json(const Facts& facts, const Options& options) {
   fmt::print("{}\n", out.dump(2));
 }
 
-ExitCode run(const Options& options) {
+void tell_hdf5(const Options& options) {
   const Facts facts = gather(hdf5::File::open(options.file));
   if (options.json)
     print_json(facts, options);
   else
     print_lines(facts, options);
+}
+
+void tell_tables(const Options& options) {
+  const ModalData data = read_modal_data(options.file);
+  if (options.json) {
+    fmt::print("{}\n", nlohmann::ordered_json{{"file", options.file}, {"modal_data", json_of(data)}}.dump(2));
+  } else {
+    fmt::print("{}\n", options.file);
+    print_modal_data(data);
+  }
+}
+
+void tell_universal_file(const Options& options) {
+  const UffFile file = read_uff(options.file);
+  if (options.json) {
+    nlohmann::ordered_json out = json_of(file);
+    out["file"] = options.file;
+    fmt::print("{}\n", out.dump(2));
+  } else {
+    fmt::print("{}\n", options.file);
+    print_universal_file(file);
+  }
+}
+
+ExitCode run(const Options& options) {
+  const auto format = modal_format(options.file);
+  if (format == ModalFormat::kCsvTables)
+    tell_tables(options);
+  else if (format == ModalFormat::kUniversalFile)
+    tell_universal_file(options);
+  else
+    tell_hdf5(options);
   return kDone;
 }
 
@@ -104,9 +147,13 @@ ExitCode run(const Options& options) {
 
 void add_info(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("info", "Tell what is in a file: status, time span, datasets with their units");
-  command->add_option("FILE", options->file, "HDF5 file written by wishbone; a .partial one too")->required();
+  CLI::App* command = app.add_subcommand(
+      "info", "Tell what is in a file: status, time span, datasets with their units; modes");
+  command
+      ->add_option("FILE", options->file,
+                   "HDF5 file written by wishbone (a .partial one too), Universal File (.unv, .uff),\n"
+                   "or modal data in CSV tables")
+      ->required();
   command->add_flag("--json", options->json, "print JSON");
   command->footer("Example:\n  wishbone info out.h5");
   command->callback([options, &exit_code] { exit_code = run(*options); });

@@ -1,8 +1,6 @@
 // The command as a user meets it: exit codes and output of the installed program.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <stdio.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -10,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "app/call.h"
 #include "app/small_run.h"
 #include "app/synthetic_run.h"
 #include "solver/result_file.h"
@@ -22,24 +21,6 @@ using testing::AllOf;
 using testing::ContainsRegex;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-struct Answer {
-  int code = -1;
-  std::string text;  ///< standard output and error
-};
-
-/// `before` is what the shell does first, in the process of the command.
-Answer call(const std::string& arguments, const std::string& before = ":") {
-  const std::string line =
-      "{ " + before + "; } && exec " + std::string(WISHBONE_COMMAND) + " " + arguments + " 2>&1";
-  FILE* pipe = popen(line.c_str(), "r");
-  Answer answer;
-  char buffer[4096];
-  while (const std::size_t n = fread(buffer, 1, sizeof buffer, pipe)) answer.text.append(buffer, n);
-  const int status = pclose(pipe);
-  if (WIFEXITED(status)) answer.code = WEXITSTATUS(status);
-  return answer;
-}
 
 std::string bytes(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -61,7 +42,7 @@ class CommandTest : public testing::Test {
 
 TEST_F(CommandTest, HelpOfEveryCommandHasAnExample) {
   EXPECT_EQ(call("--help").code, 0);
-  for (const std::string command : {"check", "compare", "extract", "info"}) {
+  for (const std::string command : {"check", "compare", "convert", "extract", "info"}) {
     const Answer answer = call(command + " --help");
     EXPECT_EQ(answer.code, 0);
     EXPECT_THAT(answer.text, HasSubstr("Example:\n  wishbone " + command));

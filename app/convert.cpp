@@ -1,0 +1,53 @@
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <memory>
+
+#include "app/check_output.h"
+#include "app/command.h"
+#include "app/modal_summary.h"
+#include "identification/formats/modal_file.h"
+
+namespace wishbone {
+
+namespace {
+
+struct Options {
+  std::string input, output;
+};
+
+/// A name may stand for several files, which are all read or written.
+void check_files(const Options& options) {
+  std::vector<std::string> inputs;
+  for (const auto& file : modal_data_files(options.input)) inputs.push_back(file.string());
+  for (const auto& file : modal_data_files(options.output)) check_output(file.string(), inputs);
+}
+
+ExitCode run(const Options& options) {
+  check_files(options);
+  const ModalData data = read_modal_data(options.input);
+  write_modal_data(options.output, data);
+  fmt::print("{}: {}\n", options.output, brief(data));
+  if (const auto lost = lost_in_modal_data(options.output, data); !lost.empty())
+    fmt::print("left out, for the format has no place for it: {}\n", fmt::join(lost, ", "));
+  return kDone;
+}
+
+}  // namespace
+
+void add_convert(CLI::App& app, ExitCode& exit_code) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("convert", "Write modal data in another format");
+  command->add_option("IN", options->input, "file of modes")->required();
+  command->add_option("OUT", options->output, "file to write")->required();
+  command->footer(
+      "The extensions tell the formats: .h5 (mode file), .unv and .uff (Universal File), .csv (NAME.csv "
+      "stands for\n"
+      "the tables NAME_nodes.csv, NAME_frequencies.csv and NAME_shapes.csv). What the format of OUT has no "
+      "place for\n"
+      "is named.\n\n"
+      "Example:\n  wishbone convert frame.unv frame.h5");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace wishbone
