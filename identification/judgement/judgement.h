@@ -11,29 +11,31 @@ namespace wishbone {
 
 /// Identified modes held against modes that are known from elsewhere.
 struct ReferenceComparison {
-  std::string name;           ///< of the reference
-  VectorX reference_hz;       ///< k, frequencies of the reference
-  MatrixX mac;                ///< m x k, identified modes against the reference over the freedoms of both
-  std::vector<int> partner;   ///< m, reference mode of largest MAC with each identified mode; -1: none above 0.5
-  VectorX frequency_error;    ///< m, f / f_partner - 1; NaN without partner
+  std::string name;      ///< of the reference
+  VectorX reference_hz;  ///< k, frequencies of the reference
+  MatrixX mac;           ///< m x k, identified modes against the reference over the freedoms of both
+  std::vector<int>
+      partner;  ///< m, reference mode of largest MAC with each identified mode; -1: none above 0.5
+  VectorX frequency_error;  ///< m, f / f_partner - 1; NaN without partner
 };
 
 /// What there is to know about the quality of an identification.
 struct Judgement {
-  VectorX input_hz;                         ///< frequencies of the modes that it started from
-  VectorX frequency_hz;                     ///< m, identified
-  VectorX residual;                         ///< m, bound on |lambda - lambda_true| / lambda by what the kept set leaves; NaN: no bound
-  VectorX frequency_std_hz;                 ///< m, standard deviation under the given measurement noise; empty: none given
-  MatrixX auto_mac;                         ///< m x m, identified modes among each other
-  MatrixX input_mac;                        ///< m x (input modes), which measured mode became which
-  double input_orthogonality_error = 0;     ///< largest off-diagonal of normalised Psi^T M_t Psi of the input
-  double orthogonality_error = 0;           ///< largest element of |Psi^T M Psi - 1| of the result
-  double rigid_body_error = 0;              ///< largest element of |Psi_0^T M Psi| of the result
-  int lost_modes = 0;                       ///< elastic modes that this support hides from any measurement
+  VectorX input_hz;      ///< frequencies of the modes that it started from
+  VectorX frequency_hz;  ///< m, identified
+  VectorX
+      residual;  ///< m, bound on |lambda - lambda_true| / lambda by what the kept set leaves; NaN: no bound
+  VectorX frequency_std_hz;  ///< m, standard deviation under the given measurement noise; empty: none given
+  MatrixX auto_mac;          ///< m x m, identified modes among each other
+  MatrixX input_mac;         ///< m x (input modes), which measured mode became which
+  double input_orthogonality_error = 0;  ///< largest off-diagonal of normalised Psi^T M_t Psi of the input
+  double orthogonality_error = 0;        ///< largest element of |Psi^T M Psi - 1| of the result
+  double rigid_body_error = 0;           ///< largest element of |Psi_0^T M Psi| of the result
+  int lost_modes = 0;                    ///< elastic modes that this support hides from any measurement
   std::vector<std::pair<std::string, double>> condition_numbers;  ///< name of a matrix, its condition number
   std::optional<ReferenceComparison> reference;
-  std::vector<std::string> notes;           ///< what was done, in words
-  std::vector<std::string> warnings;        ///< what the user should doubt
+  std::vector<std::string> notes;     ///< what was done, in words
+  std::vector<std::string> warnings;  ///< what the user should doubt
 };
 
 }  // namespace wishbone

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "identification/modal_data.h"
+
+namespace wishbone {
+
+/// A frequency without its unit, never in exponents: `digits` significant ones. A dash when it is not known
+/// (not finite).
+std::string frequency_text(double hz, int digits);
+
+/// A share in percent with three significant digits, "1.23"; a dash when it is not finite.
+std::string percent_text(double share);
+
+/// "Mode 3 · 17.35 Hz · ζ 1.2 %"; no damping where it is zero. `mode` counts from 0.
+std::string mode_title(const ModalData& data, int mode);
+
+/// [Hz]
+VectorX frequencies_hz(const VectorX& omega);
+
+/// "3 · 17.35" for every mode, counted from 1: number and frequency.
+std::vector<std::string> mode_labels(const VectorX& hz);
+
+}  // namespace wishbone
