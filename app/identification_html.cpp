@@ -13,6 +13,7 @@
 #include "app/mode_text.h"
 #include "app/page.h"
 #include "app/table.h"
+#include "core/error.h"
 
 namespace wishbone {
 
@@ -39,10 +40,10 @@ std::string support_text(const Support& support) {
 
 std::string lead(const Identification& identification) {
   const ModalData& input = identification.input;
-  std::string text = fmt::format(
-      "{} of the free structure, identified from {} at {} of {}, {}", 
-      plural(identification.modes.mode_count(), "mode"), plural(input.mode_count(), "mode"),
-      plural(input.freedom_count(), "freedom"), plural(input.node_count(), "node"), support_text(input.support));
+  std::string text = fmt::format("{} of the free structure, identified from {} at {} of {}, {}",
+                                 plural(identification.modes.mode_count(), "mode"),
+                                 plural(input.mode_count(), "mode"), plural(input.freedom_count(), "freedom"),
+                                 plural(input.node_count(), "node"), support_text(input.support));
   if (const auto& reference = identification.judgement.reference)
     text += "; compared with " + reference->name;
   return escape_markup(text) + ".";
@@ -66,20 +67,19 @@ struct Column {
 
 /// Columns about the reference: its mode, frequency, error, MAC.
 void add_reference_columns(std::vector<Column>& columns, const ReferenceComparison& reference) {
-  const auto partner = [&reference](Eigen::Index i) -> Eigen::Index {
-    return i < static_cast<Eigen::Index>(reference.partner.size()) ? reference.partner[i] : -1;
+  const auto with_partner = [&reference](auto text) {
+    return [&reference, text](Eigen::Index i) {
+      const Eigen::Index partner = reference.partner[i];
+      return partner < 0 ? "–" : text(i, partner);
+    };
   };
-  const auto with_partner = [partner](auto text) {
-    return [partner, text](Eigen::Index i) { return partner(i) < 0 ? "–" : text(i, partner(i)); };
-  };
-  columns.push_back({"Reference<small>mode</small>", with_partner([](Eigen::Index, Eigen::Index k) {
-                       return fmt::format("{}", k + 1);
-                     })});
+  columns.push_back({"Reference<small>mode</small>",
+                     with_partner([](Eigen::Index, Eigen::Index k) { return fmt::format("{}", k + 1); })});
   columns.push_back({"Reference<small>Hz</small>", with_partner([&reference](Eigen::Index, Eigen::Index k) {
-                       return frequency_text(at(reference.reference_hz, k), 5);
+                       return frequency_text(reference.reference_hz[k], 5);
                      })});
   columns.push_back({"Error<small>%</small>", with_partner([&reference](Eigen::Index i, Eigen::Index) {
-                       return percent_text(at(reference.frequency_error, i));
+                       return percent_text(reference.frequency_error[i]);
                      })});
   columns.push_back({"MAC<small>–</small>", with_partner([&reference](Eigen::Index i, Eigen::Index k) {
                        const double mac = reference.mac(i, k);
@@ -92,16 +92,17 @@ void add_reference_columns(std::vector<Column>& columns, const ReferenceComparis
 std::vector<Column> mode_columns(const Identification& identification) {
   const Judgement& judgement = identification.judgement;
   const VectorX& damping = identification.modes.damping_ratio;
-  std::vector<Column> columns{
-      {"Mode", [](Eigen::Index i) { return fmt::format("{}", i + 1); }},
-      {"Frequency<small>Hz</small>", [&](Eigen::Index i) { return frequency_text(judgement.frequency_hz[i], 5); }}};
+  std::vector<Column> columns{{"Mode", [](Eigen::Index i) { return fmt::format("{}", i + 1); }},
+                              {"Frequency<small>Hz</small>",
+                               [&](Eigen::Index i) { return frequency_text(judgement.frequency_hz[i], 5); }}};
   if (judgement.frequency_std_hz.size() > 0)
     columns.push_back({"Standard deviation<small>Hz</small>",
                        [&](Eigen::Index i) { return frequency_text(at(judgement.frequency_std_hz, i), 2); }});
   if (judgement.residual.size() > 0)
     columns.push_back({"Residual bound<small>% of &lambda;</small>",
                        [&](Eigen::Index i) { return percent_text(at(judgement.residual, i)); }});
-  columns.push_back({"Damping &zeta;<small>%</small>", [&](Eigen::Index i) { return percent_text(at(damping, i)); }});
+  columns.push_back(
+      {"Damping &zeta;<small>%</small>", [&](Eigen::Index i) { return percent_text(at(damping, i)); }});
   if (judgement.reference) add_reference_columns(columns, *judgement.reference);
   return columns;
 }
@@ -123,9 +124,12 @@ std::string mode_table(const Identification& identification) {
 std::string legend(const Judgement& judgement) {
   std::string text;
   if (judgement.residual.size() > 0)
-    text += "Residual bound: |&lambda; &minus; &lambda;<sub>true</sub>| / &lambda; that the kept modes leave open, "
-            "&lambda; = &omega;&sup2;. ";
-  if (judgement.frequency_std_hz.size() > 0) text += "Standard deviation: under the given measurement noise. ";
+    text +=
+        "Residual bound: |&lambda; &minus; &lambda;<sub>true</sub>| / &lambda; that the kept modes leave "
+        "open, "
+        "&lambda; = &omega;&sup2;. ";
+  if (judgement.frequency_std_hz.size() > 0)
+    text += "Standard deviation: under the given measurement noise. ";
   if (judgement.reference)
     text += "Reference mode: that of the largest MAC, at least 0.5; MAC below 0.9 is red. ";
   return text.empty() ? "" : "<p class=\"caption\">" + text + "</p>";
@@ -145,8 +149,14 @@ std::string pictures(const Identification& identification) {
   const std::string agreement =
       shown("mac_reference.svg") + shown("mac_input.svg") + shown("mac_auto.svg") + shown("frequencies.svg");
   return section("Shapes of the lowest modes", shown("modes.svg")) +
-         section("Agreement", agreement.empty() ? "" : "<div class=\"grid two mac\">\n" + agreement + "</div>\n") +
+         section("Agreement",
+                 agreement.empty() ? "" : "<div class=\"grid two mac\">\n" + agreement + "</div>\n") +
          section("Lowest modes of the input", shown("input_modes.svg"));
+}
+
+/// Four digits; a dash for what is not known.
+std::string measure(double value) {
+  return std::isnan(value) ? "–" : std::isinf(value) ? "infinite" : brief(value);
 }
 
 std::string fact(const std::string& name, const std::string& value) {
@@ -155,16 +165,18 @@ std::string fact(const std::string& name, const std::string& value) {
 
 std::string quality(const Judgement& judgement) {
   return fact("Input: largest off-diagonal of normalised &Psi;<sup>T</sup>M<sub>t</sub>&Psi;",
-              brief(judgement.input_orthogonality_error)) +
-         fact("Result: largest element of |&Psi;<sup>T</sup>M&Psi; &minus; 1|", brief(judgement.orthogonality_error)) +
-         fact("Result: largest element of |&Psi;<sub>0</sub><sup>T</sup>M&Psi;|", brief(judgement.rigid_body_error)) +
+              measure(judgement.input_orthogonality_error)) +
+         fact("Result: largest element of |&Psi;<sup>T</sup>M&Psi; &minus; 1|",
+              measure(judgement.orthogonality_error)) +
+         fact("Result: largest element of |&Psi;<sub>0</sub><sup>T</sup>M&Psi;|",
+              measure(judgement.rigid_body_error)) +
          fact("Elastic modes that this support hides", fmt::format("{}", judgement.lost_modes));
 }
 
 std::string conditions(const Judgement& judgement) {
   std::string rows;
   for (const auto& [name, value] : judgement.condition_numbers)
-    rows += fact("Condition number: " + escape_markup(name), std::isfinite(value) ? brief(value) : "infinite");
+    rows += fact("Condition number: " + escape_markup(name), measure(value));
   return rows;
 }
 
@@ -178,27 +190,54 @@ std::string provenance(const Identification& identification) {
     return fmt::format("<div><h3>{}: {}</h3>\n<ol class=\"steps\">\n{}</ol></div>\n", heading,
                        escape_markup(data.title.empty() ? "untitled" : data.title), items(data.provenance));
   };
-  return "<div class=\"grid two\">\n" + steps("Input", identification.input) + steps("Result", identification.modes) +
-         "</div>";
+  return "<div class=\"grid two\">\n" + steps("Input", identification.input) +
+         steps("Result", identification.modes) + "</div>";
+}
+
+[[noreturn]] void reject(const std::string& what, const std::string& value) {
+  throw InputError({"identification page", what, value, "judge the modes that are shown"});
+}
+
+/// What the table reads; the pictures check the rest.
+void check_sizes(const Identification& identification) {
+  const Eigen::Index m = identification.modes.mode_count();
+  if (identification.judgement.frequency_hz.size() != m)
+    reject("the judgement must have a frequency for every mode",
+           fmt::format("{} for {} modes", identification.judgement.frequency_hz.size(), m));
+  if (!identification.judgement.reference) return;
+  const ReferenceComparison& reference = *identification.judgement.reference;
+  const Eigen::Index k = reference.reference_hz.size(),
+                     partners = static_cast<Eigen::Index>(reference.partner.size());
+  if (reference.mac.rows() != m || reference.mac.cols() != k || partners != m ||
+      reference.frequency_error.size() != m)
+    reject(
+        "the comparison with a reference must have a row for every mode, a column for every reference mode",
+        fmt::format("{} x {} MAC, {} partners, {} errors for {} and {} modes", reference.mac.rows(),
+                    reference.mac.cols(), partners, reference.frequency_error.size(), m, k));
+  for (const int partner : reference.partner)
+    if (partner < -1 || partner >= k)
+      reject(fmt::format("there are {} reference modes", k), fmt::format("mode {}", partner + 1));
 }
 
 }  // namespace
 
 std::string identification_html(const Identification& identification) {
+  check_sizes(identification);
   const Judgement& judgement = identification.judgement;
   const std::string title = identification.title.empty() ? "Identification" : identification.title;
-  return filled(embedded::identification_html, {{"report_css", std::string(embedded::report_css)},
-                                                {"identification_css", std::string(embedded::identification_css)},
-                                                {"title", escape_markup(title)},
-                                                {"lead", lead(identification)},
-                                                {"warnings", items(judgement.warnings)},
-                                                {"modes", mode_table(identification)},
-                                                {"legend", legend(judgement)},
-                                                {"pictures", pictures(identification)},
-                                                {"quality", quality(judgement)},
-                                                {"conditions", conditions(judgement)},
-                                                {"notes", notes(judgement)},
-                                                {"provenance", provenance(identification)}});
+  return filled(embedded::identification_html,
+                {{"report_css", std::string(embedded::report_css)},
+                 {"identification_css", std::string(embedded::identification_css)},
+                 {"title", escape_markup(title)},
+                 {"lead", lead(identification)},
+                 {"warnings", items(judgement.warnings)},
+                 {"modes", mode_table(identification)},
+                 {"legend", legend(judgement)},
+                 {"pictures", pictures(identification)},
+                 {"quality", quality(judgement)},
+                 {"conditions", conditions(judgement)},
+                 {"notes", notes(judgement)},
+                 {"provenance", provenance(identification)}});
 }
 
 }  // namespace wishbone

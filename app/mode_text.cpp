@@ -9,12 +9,17 @@ namespace wishbone {
 
 std::string frequency_text(double hz, int digits) {
   if (!std::isfinite(hz)) return "–";
-  const int before_point = hz == 0 ? 1 : static_cast<int>(std::floor(std::log10(std::abs(hz)))) + 1;
+  // of what is written: 0.0996 is 0.10 in two digits
+  const double rounded = std::stod(fmt::format("{:.{}e}", std::abs(hz), digits - 1));
+  const int before_point = rounded == 0 ? 1 : static_cast<int>(std::floor(std::log10(rounded))) + 1;
   return fmt::format("{:.{}f}", hz, std::clamp(digits - before_point, 0, 9));
 }
 
 std::string percent_text(double share) {
-  return std::isfinite(share) ? fmt::format("{:.3g}", 100 * share) : "–";
+  if (!std::isfinite(share)) return "–";
+  const double percent = 100 * share;
+  const bool tiny = percent != 0 && std::abs(percent) < 0.01;
+  return tiny ? fmt::format("{:.1e}", percent) : fmt::format("{:.2f}", percent);
 }
 
 VectorX frequencies_hz(const VectorX& omega) {
@@ -25,7 +30,7 @@ std::string mode_title(const ModalData& data, int mode) {
   std::string title =
       fmt::format("Mode {} · {} Hz", mode + 1, frequency_text(frequencies_hz(data.omega)[mode], 4));
   if (const double zeta = data.damping_ratio[mode]; zeta > 0)
-    title += fmt::format(" · ζ {} %", percent_text(zeta));
+    title += fmt::format(" · ζ {:.2g} %", 100 * zeta);
   return title;
 }
 

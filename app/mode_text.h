@@ -11,7 +11,7 @@ namespace wishbone {
 /// (not finite).
 std::string frequency_text(double hz, int digits);
 
-/// A share in percent with three significant digits, "1.23"; a dash when it is not finite.
+/// A share in percent: two decimals, or two significant digits below 0.01 %; a dash when it is not finite.
 std::string percent_text(double share);
 
 /// "Mode 3 · 17.35 Hz · ζ 1.2 %"; no damping where it is zero. `mode` counts from 0.

@@ -6,13 +6,15 @@
 #include <cmath>
 
 #include "app/svg/svg.h"
+#include "app/svg/text_width.h"
 #include "core/error.h"
 
 namespace wishbone {
 namespace {
 
+constexpr double kTitleSize = 15;
 constexpr double kWidth = 594, kHeight = 260;
-constexpr double kLeft = 56, kRight = 12, kTop = 40, kBottom = 44;
+constexpr double kLeft = 56, kRight = 12, kTop = 54, kBottom = 44;
 constexpr const char* kSoft = "#566070";
 
 /// What is drawn of one mode.
@@ -45,10 +47,10 @@ double round_step(double least) {
 struct Axes {
   double count, limit;  ///< modes; percent at the upper edge
 
-  double x(double mode) const { return kLeft + (mode + 0.5) * (kWidth - kLeft - kRight) / std::max(count, 1.0); }
-  double y(double percent) const {
-    return kTop + (1 - percent / limit) * (kHeight - kTop - kBottom) / 2;
+  double x(double mode) const {
+    return kLeft + (mode + 0.5) * (kWidth - kLeft - kRight) / std::max(count, 1.0);
   }
+  double y(double percent) const { return kTop + (1 - percent / limit) * (kHeight - kTop - kBottom) / 2; }
 };
 
 Axes axes_of(const std::vector<Deviation>& all) {
@@ -68,10 +70,11 @@ SvgElement scales(const Axes& axes) {
   }
   const auto stride = static_cast<int>(round_step(std::max(1.0, axes.count / 25)));
   for (int mode = stride - 1; mode < axes.count; mode += stride)
-    group.add(svg_text({axes.x(mode), kHeight - kBottom + 17}, fmt::format("{}", mode + 1), {{"text-anchor", "middle"}}));
-  if (stride > 1) group.add(svg_text({axes.x(0), kHeight - kBottom + 17}, "1", {{"text-anchor", "middle"}}));
+    group.add(svg_text({axes.x(mode), kHeight - kBottom + 17}, fmt::format("{}", mode + 1),
+                       {{"text-anchor", "middle"}}));
+  if (stride >= 5) group.add(svg_text({axes.x(0), kHeight - kBottom + 17}, "1", {{"text-anchor", "middle"}}));
   group.add(svg_text({kLeft, kHeight - 8}, "mode", {{"font-size", 12}, {"fill", kSoft}}));
-  return group.add(svg_text({0, kTop - 12}, "error [%]", {{"font-size", 12}, {"fill", kSoft}}));
+  return group.add(svg_text({0, kTop - 14}, "error [%]", {{"font-size", 12}, {"fill", kSoft}}));
 }
 
 SvgElement mark(const Axes& axes, double mode, const Deviation& d) {
@@ -89,7 +92,18 @@ SvgElement mark(const Axes& axes, double mode, const Deviation& d) {
       group.add(svg_line({x, axes.y(d.percent)}, {x, axes.y(end)}));
       group.add(svg_line({x - kCap, axes.y(end)}, {x + kCap, axes.y(end)}));
     }
-  return group.add(svg_circle({x, axes.y(d.percent)}, 3, {{"fill", "#2f7fc6"}, {"stroke", "#fff"}, {"stroke-width", 0.7}}));
+  return group.add(svg_circle({x, axes.y(d.percent)}, 3,
+                              {{"fill", "#2f7fc6"}, {"stroke", "#fff"}, {"stroke-width", 0.7}}));
+}
+
+/// What the marks mean that are there.
+SvgElement legend(const std::vector<Deviation>& all) {
+  std::string text;
+  if (std::any_of(all.begin(), all.end(), [](const Deviation& d) { return d.bar > 0; }))
+    text = "bars: ± one standard deviation";
+  if (std::any_of(all.begin(), all.end(), [](const Deviation& d) { return !std::isfinite(d.percent); }))
+    text += text.empty() ? "× no reference mode" : "; × no reference mode";
+  return svg_text({kWidth - kRight, kHeight - 8}, text, {{"text-anchor", "end"}, {"fill", kSoft}});
 }
 
 }  // namespace
@@ -102,9 +116,11 @@ std::string frequency_svg(const Judgement& judgement) {
   const Axes axes = axes_of(all);
   const std::string title = "Frequency error against " + judgement.reference->name;
   SvgElement picture = svg_picture(kWidth, kHeight, title);
-  picture.add(svg_text({0, 14}, title, {{"font-size", 15}, {"font-weight", 600}}));
+  picture.add(svg_text({0, 14}, fitted(title, kTitleSize, kWidth),
+                       {{"font-size", kTitleSize}, {"font-weight", 600}}));
   picture.add(scales(axes));
   for (std::size_t i = 0; i < all.size(); ++i) picture.add(mark(axes, static_cast<double>(i), all[i]));
+  picture.add(legend(all));
   return picture.markup() + '\n';
 }
 

@@ -17,6 +17,7 @@ struct MacAxis {
 /// 1. Values stand in the cells up to 20 x 20 (two decimals, ".97"); of many labels every second, third ... is
 /// written. A value that is not finite becomes a grey cell. Throws InputError when the labels do not fit the
 /// matrix.
-std::string mac_svg(const MatrixX& mac, const MacAxis& rows, const MacAxis& columns, const std::string& title);
+std::string mac_svg(const MatrixX& mac, const MacAxis& rows, const MacAxis& columns,
+                    const std::string& title);
 
 }  // namespace wishbone

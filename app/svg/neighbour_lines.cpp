@@ -17,11 +17,10 @@ std::vector<std::array<int, 2>> neighbour_lines(const Matrix3X& points) {
     for (int j = i + 1; j < n; ++j) {
       const double between = kEqual * distance[j];
       // the third points, nearest first: most pairs are refuted by the first few
-      const auto end = std::partition_point(nearest.begin(), nearest.end(),
-                                            [&](int k) { return distance[k] < between; });
-      const bool apart = std::any_of(nearest.begin(), end, [&](int k) {
-        return (points.col(k) - points.col(j)).norm() < between;
-      });
+      const auto end =
+          std::partition_point(nearest.begin(), nearest.end(), [&](int k) { return distance[k] < between; });
+      const bool apart = std::any_of(nearest.begin(), end,
+                                     [&](int k) { return (points.col(k) - points.col(j)).norm() < between; });
       if (!apart && distance[j] > 0) lines.push_back({i, j});
     }
   }

@@ -22,11 +22,14 @@ double ground_side(const Vector3& u, const Vector3& from_middle) {
 }
 
 void add_ground(SvgElement& symbols, const SymbolAxes& at) {
-  constexpr double kHalf = 5.5;
-  std::string data = path_through({at(kLength, -kHalf), at(kLength, kHalf)});
-  for (double aside = -kHalf; aside < kHalf; aside += kHalf / 1.5)
-    data += path_through({at(kLength, aside + kHalf / 1.5), at(kLength + 3, aside)});
-  symbols.add(svg_path(data));
+  constexpr double kHalf = 6, kHatch = 3;
+  symbols.add(svg_path(path_through({at(kLength, -kHalf), at(kLength, kHalf)})));
+  std::string hatches;
+  for (int i = 0; i < 4; ++i) {
+    const double aside = -kHalf + kHatch * i;
+    hatches += path_through({at(kLength, aside + kHatch), at(kLength + kHatch, aside)});
+  }
+  symbols.add(svg_path(hatches, {{"stroke-width", 0.6}}));
 }
 
 void add_spring(SvgElement& symbols, const SymbolAxes& at) {
@@ -39,14 +42,16 @@ void add_spring(SvgElement& symbols, const SymbolAxes& at) {
 
 void add_joint(SvgElement& symbols, const SymbolAxes& at) {
   constexpr double kHalf = 5.5;
-  symbols.add(svg_path(path_through({at(2, 0), at(kLength, -kHalf), at(kLength, kHalf)}) + 'Z', {{"fill", "#fff"}}));
+  symbols.add(
+      svg_path(path_through({at(2, 0), at(kLength, -kHalf), at(kLength, kHalf)}) + 'Z', {{"fill", "#fff"}}));
   add_ground(symbols, at);
 }
 
 template <class Held>
-void add_all(SvgElement& symbols, const ModalData& data, const std::vector<Held>& held, const Wireframe& frame,
-             const Placement& place, void (*add)(SvgElement&, const SymbolAxes&)) {
+void add_all(SvgElement& symbols, const ModalData& data, const std::vector<Held>& held,
+             const Wireframe& frame, const Placement& place, void (*add)(SvgElement&, const SymbolAxes&)) {
   constexpr double kAlongSight = 0.2;
+  if (held.empty()) return;
   const Vector3 middle = frame.nodes.rowwise().mean();
   for (const Held& support : held) {
     const Vector3 position = frame.nodes.col(data.node_index(support.node));

@@ -60,14 +60,16 @@ std::string SvgElement::markup() const {
 }
 
 SvgElement svg_picture(double width, double height, const std::string& title) {
-  SvgElement picture("svg", {{"xmlns", "http://www.w3.org/2000/svg"},
-                             {"viewBox", "0 0 " + svg_number(width) + ' ' + svg_number(height)},
-                             {"width", width},
-                             {"height", height},
-                             {"role", "img"},
-                             {"font-family", "'Segoe UI', Roboto, 'Helvetica Neue', 'Liberation Sans', Arial, sans-serif"},
-                             {"font-size", 12},
-                             {"fill", "#1c2430"}});
+  SvgElement picture(
+      "svg", {{"xmlns", "http://www.w3.org/2000/svg"},
+              {"viewBox", "0 0 " + svg_number(width) + ' ' + svg_number(height)},
+              {"width", width},
+              {"height", height},
+              {"role", "img"},
+              {"font-family", "'Segoe UI', Roboto, 'Helvetica Neue', 'Liberation Sans', Arial, sans-serif"},
+              {"font-size", 12},
+              {"fill", "#1c2430"},
+              {"style", "background:#fff"}});
   picture.add(SvgElement("title").add_text(title));
   return picture;
 }

@@ -18,8 +18,8 @@ struct SvgValue {
   std::string text;
 
   template <class Number>
-    requires std::is_arithmetic_v<Number>
-  SvgValue(Number number) : text(svg_number(static_cast<double>(number))) {}
+  requires std::is_arithmetic_v<Number> SvgValue(Number number)
+      : text(svg_number(static_cast<double>(number))) {}
   SvgValue(const char* value) : text(value) {}
   SvgValue(std::string value) : text(std::move(value)) {}
 };

@@ -20,8 +20,8 @@ Eigen::AlignedBox2d box(const View& view, const Matrix3X& points) {
 
 View view_of(const Matrix3X& nodes) {
   constexpr double kElevation = 22 * kRadian;
-  constexpr double kTurnOfSlender = 24 * kRadian, kTurnOfCompact = 32 * kRadian;
-  constexpr double kSlender = 1.5;  // length over breadth
+  constexpr double kTurnOfSlender = 16 * kRadian, kTurnOfCompact = 32 * kRadian;
+  constexpr double kSlender = 1.8;  // length over breadth
 
   double turn = kTurnOfCompact;
   if (nodes.cols() > 1) {

@@ -43,10 +43,10 @@ double Wireframe::size() const {
 }
 
 Wireframe wireframe(const ModalData& data) {
-  Wireframe frame{data.node_position, {}, view_of(data.node_position)};
+  Wireframe frame{data.node_position, {}, data.lines.empty(), view_of(data.node_position)};
   const auto columns = columns_of(data.node_ids);
   for (const auto& [a, b] : data.lines) frame.lines.push_back({columns.at(a), columns.at(b)});
-  if (frame.lines.empty()) frame.lines = neighbour_lines(frame.nodes);
+  if (frame.lines_are_guessed) frame.lines = neighbour_lines(frame.nodes);
   const auto nearness = [&](const std::array<int, 2>& line) {
     return frame.view.nearness(frame.nodes.col(line[0]) + frame.nodes.col(line[1]));
   };
@@ -80,7 +80,8 @@ SvgElement draw_displaced(const Wireframe& frame, const Matrix3X& displacement, 
                           const Placement& place) {
   const Matrix3X displaced = frame.nodes + amplitude * displacement;
   const VectorX value = displacement.colwise().norm();
-  SvgElement lines = svg_group({{"fill", "none"}, {"stroke-width", pen(frame, 2.2, 1)}, {"stroke-linecap", "round"}});
+  SvgElement lines =
+      svg_group({{"fill", "none"}, {"stroke-width", pen(frame, 2.2, 1)}, {"stroke-linecap", "round"}});
   for (const auto& [a, b] : frame.lines)
     add_line(lines, place(displaced.col(a)), place(displaced.col(b)), value[a], value[b]);
   SvgElement dots = svg_group({{"stroke", "#fff"}, {"stroke-width", pen(frame, 0.6, 0.2)}});

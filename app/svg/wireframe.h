@@ -12,6 +12,7 @@ namespace wishbone {
 struct Wireframe {
   Matrix3X nodes;                         ///< 3 x n [m]
   std::vector<std::array<int, 2>> lines;  ///< pairs of columns, the farthest from the viewer first
+  bool lines_are_guessed = false;         ///< the data have none: neighbours are joined
   View view;
 
   /// Diagonal of the box round the nodes [m]; 0 for a single point.
