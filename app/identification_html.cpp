@@ -76,7 +76,7 @@ void add_reference_columns(std::vector<Column>& columns, const ReferenceComparis
   columns.push_back({"Reference<small>mode</small>",
                      with_partner([](Eigen::Index, Eigen::Index k) { return fmt::format("{}", k + 1); })});
   columns.push_back({"Reference<small>Hz</small>", with_partner([&reference](Eigen::Index, Eigen::Index k) {
-                       return frequency_text(reference.reference_hz[k], 5);
+                       return significant_text(reference.reference_hz[k], 5);
                      })});
   columns.push_back({"Error<small>%</small>", with_partner([&reference](Eigen::Index i, Eigen::Index) {
                        return percent_text(reference.frequency_error[i]);
@@ -93,11 +93,13 @@ std::vector<Column> mode_columns(const Identification& identification) {
   const Judgement& judgement = identification.judgement;
   const VectorX& damping = identification.modes.damping_ratio;
   std::vector<Column> columns{{"Mode", [](Eigen::Index i) { return fmt::format("{}", i + 1); }},
-                              {"Frequency<small>Hz</small>",
-                               [&](Eigen::Index i) { return frequency_text(judgement.frequency_hz[i], 5); }}};
+                              {"Frequency<small>Hz</small>", [&](Eigen::Index i) {
+                                 return significant_text(judgement.frequency_hz[i], 5);
+                               }}};
   if (judgement.frequency_std_hz.size() > 0)
-    columns.push_back({"Standard deviation<small>Hz</small>",
-                       [&](Eigen::Index i) { return frequency_text(at(judgement.frequency_std_hz, i), 2); }});
+    columns.push_back({"Standard deviation<small>Hz</small>", [&](Eigen::Index i) {
+                         return significant_text(at(judgement.frequency_std_hz, i), 2);
+                       }});
   if (judgement.residual.size() > 0)
     columns.push_back({"Residual bound<small>% of &lambda;</small>",
                        [&](Eigen::Index i) { return percent_text(at(judgement.residual, i)); }});

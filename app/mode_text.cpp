@@ -7,12 +7,12 @@
 
 namespace wishbone {
 
-std::string frequency_text(double hz, int digits) {
-  if (!std::isfinite(hz)) return "–";
+std::string significant_text(double value, int digits) {
+  if (!std::isfinite(value)) return "–";
   // of what is written: 0.0996 is 0.10 in two digits
-  const double rounded = std::stod(fmt::format("{:.{}e}", std::abs(hz), digits - 1));
+  const double rounded = std::stod(fmt::format("{:.{}e}", std::abs(value), digits - 1));
   const int before_point = rounded == 0 ? 1 : static_cast<int>(std::floor(std::log10(rounded))) + 1;
-  return fmt::format("{:.{}f}", hz, std::clamp(digits - before_point, 0, 9));
+  return fmt::format("{:.{}f}", value, std::clamp(digits - before_point, 0, 9));
 }
 
 std::string percent_text(double share) {
@@ -28,15 +28,16 @@ VectorX frequencies_hz(const VectorX& omega) {
 
 std::string mode_title(const ModalData& data, int mode) {
   std::string title =
-      fmt::format("Mode {} · {} Hz", mode + 1, frequency_text(frequencies_hz(data.omega)[mode], 4));
+      fmt::format("Mode {} · {} Hz", mode + 1, significant_text(frequencies_hz(data.omega)[mode], 4));
   if (const double zeta = data.damping_ratio[mode]; zeta > 0)
-    title += fmt::format(" · ζ {:.2g} %", 100 * zeta);
+    title += fmt::format(" · ζ {} %", significant_text(100 * zeta, 2));
   return title;
 }
 
 std::vector<std::string> mode_labels(const VectorX& hz) {
   std::vector<std::string> labels;
-  for (const double f : hz) labels.push_back(fmt::format("{} · {}", labels.size() + 1, frequency_text(f, 4)));
+  for (const double f : hz)
+    labels.push_back(fmt::format("{} · {}", labels.size() + 1, significant_text(f, 4)));
   return labels;
 }
 

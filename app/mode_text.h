@@ -7,9 +7,9 @@
 
 namespace wishbone {
 
-/// A frequency without its unit, never in exponents: `digits` significant ones. A dash when it is not known
-/// (not finite).
-std::string frequency_text(double hz, int digits);
+/// A number with `digits` significant digits and never an exponent, for columns that are read downwards; a dash
+/// when it is not known (not finite).
+std::string significant_text(double hz, int digits);
 
 /// A share in percent: two decimals, or two significant digits below 0.01 %; a dash when it is not finite.
 std::string percent_text(double share);

@@ -43,10 +43,12 @@ double Wireframe::size() const {
 }
 
 Wireframe wireframe(const ModalData& data) {
-  Wireframe frame{data.node_position, {}, data.lines.empty(), view_of(data.node_position)};
+  constexpr int kMostJoined = 2000;  // joining more takes seconds, and they draw the structure by themselves
+  const bool guess = data.lines.empty() && data.node_count() <= kMostJoined;
+  Wireframe frame{data.node_position, {}, guess, view_of(data.node_position)};
   const auto columns = columns_of(data.node_ids);
   for (const auto& [a, b] : data.lines) frame.lines.push_back({columns.at(a), columns.at(b)});
-  if (frame.lines_are_guessed) frame.lines = neighbour_lines(frame.nodes);
+  if (guess) frame.lines = neighbour_lines(frame.nodes);
   const auto nearness = [&](const std::array<int, 2>& line) {
     return frame.view.nearness(frame.nodes.col(line[0]) + frame.nodes.col(line[1]));
   };

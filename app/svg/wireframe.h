@@ -19,7 +19,8 @@ struct Wireframe {
   double size() const;
 };
 
-/// The nodes and lines of the data; where there are no lines, neighbours are joined.
+/// The nodes and lines of the data; where there are no lines, neighbours are joined (app/svg/neighbour_lines.h)
+/// unless the nodes are so many that they show the structure by themselves.
 Wireframe wireframe(const ModalData& data);
 
 /// Displacements of the nodes in a mode (3 x n), the largest of length 1; zero where nothing was measured and

@@ -53,9 +53,11 @@ TEST(IdentificationHtml, ShowsWhatWasIdentifiedFromWhatAndHowGoodItIs) {
   identification.judgement.reference->frequency_error[4] = NAN;
   const std::string page = identification_html(identification);
   for (const char* shown :
-       {"8 modes of the free structure, identified from 8 modes at 60 freedoms of 20 nodes, held by 4 springs",
+       {"8 modes of the free structure, identified from 8 modes at 60 freedoms of 20 nodes, held by 4 "
+        "springs",
         "compared with finite elements", "<li>mode 2 &amp; 3 are close</li>",
-        "<td>1</td><td>17.371</td><td>0.035</td><td>1.23</td><td>1.20</td><td>1</td><td>17.353</td><td>0.10</td>",
+        "<td>1</td><td>17.371</td><td>0.035</td><td>1.23</td><td>1.20</td><td>1</td><td>17.353</td><td>0.10</"
+        "td>",
         "<td>–</td><td>–</td><td>–</td><td>–</td></tr>", "scaled the modes to unit modal mass",
         "Condition number: Psi^T M Psi</th><td>1.02</td>", "this support hides</th><td>3</td>",
         "block of hexahedra", "MAC against finite elements", "Frequency error against finite elements"})
@@ -97,7 +99,8 @@ TEST(IdentificationHtml, LeavesOutWhatIsNotKnown) {
   judgement.notes.clear();
   identification.input.support = {};
   const std::string page = identification_html(identification);
-  for (const char* absent : {"Reference", "Standard deviation", "Residual", "<h2>Notes", "compared", "frequency error"})
+  for (const char* absent :
+       {"Reference", "Standard deviation", "Residual", "<h2>Notes", "compared", "frequency error"})
     EXPECT_THAT(page, Not(HasSubstr(absent)));
   EXPECT_THAT(page, HasSubstr("20 nodes, free."));
   EXPECT_FALSE(shows_nan(page));
@@ -132,7 +135,7 @@ TEST(IdentificationPictures, AreWrittenIntoAFolder) {
   const TemporaryFolder folder;
   const Identification identification = chassis_identification(4);
   write_pictures(folder / "deep/pictures", identification);
-  const std::set<std::string> expected{"modes.svg",         "input_modes.svg", "mac_reference.svg",
+  const std::set<std::string> expected{"modes.svg",       "input_modes.svg", "mac_reference.svg",
                                        "frequencies.svg", "mac_input.svg",   "mac_auto.svg"};
   std::set<std::string> found;
   for (const auto& file : std::filesystem::directory_iterator(folder / "deep/pictures")) {

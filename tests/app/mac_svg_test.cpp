@@ -28,7 +28,8 @@ std::string picture(const MatrixX& mac) {
 TEST(MacSvg, IsWellFormedWithTitleLabelsAndNames) {
   const std::string svg = picture(MatrixX::Identity(3, 4));
   EXPECT_TRUE(is_well_formed_xml(svg));
-  for (const char* shown : {"MAC &lt;of&gt; a &amp; b", ">i100<", ">i102<", ">r103<", ">identified<", ">reference<"})
+  for (const char* shown :
+       {"MAC &lt;of&gt; a &amp; b", ">i100<", ">i102<", ">r103<", ">identified<", ">reference<"})
     EXPECT_THAT(svg, HasSubstr(shown));
   EXPECT_EQ(svg, picture(MatrixX::Identity(3, 4)));
 }
@@ -39,7 +40,7 @@ TEST(MacSvg, ValuesStandInTheCellsWhileThereIsRoom) {
   mac(6, 6) = 1;
   const std::string svg = picture(mac);
   EXPECT_EQ(count_of(">.87</text>", svg), 1u);
-  EXPECT_EQ(count_of(">1</text>", svg), 1u + 1u);     // the cell and the colour bar
+  EXPECT_EQ(count_of(">1</text>", svg), 1u + 1u);  // the cell and the colour bar
   EXPECT_EQ(count_of(">0</text>", svg), 398u + 1u);
   mac.conservativeResizeLike(MatrixX::Zero(21, 20));
   EXPECT_THAT(picture(mac), Not(HasSubstr(">.87</text>")));

@@ -26,7 +26,8 @@ struct Dot {
 
 /// Circles of a picture, as written: first the nodes at rest, then the displaced ones.
 std::vector<Dot> dots_of(const std::string& svg) {
-  static const std::regex kCircle("<circle cx=\"([^\"]*)\" cy=\"([^\"]*)\" r=\"([^\"]*)\"(?: fill=\"([^\"]*)\")?");
+  static const std::regex kCircle(
+      "<circle cx=\"([^\"]*)\" cy=\"([^\"]*)\" r=\"([^\"]*)\"(?: fill=\"([^\"]*)\")?");
   std::vector<Dot> dots;
   for (std::sregex_iterator i(svg.begin(), svg.end(), kCircle), end; i != end; ++i)
     dots.push_back({{std::stod((*i)[1]), std::stod((*i)[2])}, std::stod((*i)[3]), (*i)[4]});
@@ -89,7 +90,8 @@ TEST(ModeShapeSvg, MotionMeasuredAlongZIsDrawnUprightAtItsScale) {
   for (int mode = 0; mode < 2; ++mode) {
     const std::vector<Dot> dots = dots_of(mode_shape_svg(data, mode, options));
     ASSERT_EQ(dots.size(), 40u);
-    const double pixels_per_metre = (dots[1].at - dots[2].at).norm() / 0.4;  // nodes 2 and 3 are one edge in z
+    const double pixels_per_metre =
+        (dots[1].at - dots[2].at).norm() / 0.4;  // nodes 2 and 3 are one edge in z
     ASSERT_NEAR(dots[1].at.x(), dots[2].at.x(), 0.011);
     double largest = 0;
     for (int i = 0; i < 20; ++i) {
@@ -117,8 +119,9 @@ TEST(ModeShapeSvg, NothingLeavesThePaper) {
   supported.support.joints.push_back({3, Vector3::UnitX()});
   ModalData cloud = chassis_modes(6);
   cloud.lines.clear();
-  for (const ModalData& data : {supported, cloud, measured_along(block_modes({1.2, 0.8, 0.02}, {6, 4, 1}, 6), 2),
-                                block_modes({0.4, 0.4, 2.4}, {1, 1, 4}, 6)}) {
+  for (const ModalData& data :
+       {supported, cloud, measured_along(block_modes({1.2, 0.8, 0.02}, {6, 4, 1}, 6), 2),
+        block_modes({0.4, 0.4, 2.4}, {1, 1, 4}, 6)}) {
     for (int mode = 0; mode < 6; ++mode) expect_inside(mode_shape_svg(data, mode));
     expect_inside(mode_sheet_svg(data, 6));
   }
@@ -164,7 +167,8 @@ TEST(ModeShapeSvg, EveryPartOfTheSupportHasItsSymbol) {
   EXPECT_EQ(count_of("<rect", mode_shape_svg(data, 0)), count_of("<rect", free) + 2);
   data.support = {};
   data.support.springs = {{1, Vector3::UnitZ(), 1}};
-  EXPECT_EQ(count_of("<path", mode_shape_svg(data, 0)), count_of("<path", free) + 3);  // zigzag, ground, hatches
+  EXPECT_EQ(count_of("<path", mode_shape_svg(data, 0)),
+            count_of("<path", free) + 3);  // zigzag, ground, hatches
 }
 
 TEST(ModeShapeSvg, SheetHasAsManyModesAsThereAre) {

@@ -10,13 +10,13 @@
 namespace wishbone {
 namespace {
 
-TEST(ModeText, FrequenciesHaveTheirSignificantDigitsAndNoExponent) {
-  EXPECT_EQ(frequency_text(17.3456, 4), "17.35");
-  EXPECT_EQ(frequency_text(9.99996, 4), "10.00");
-  EXPECT_EQ(frequency_text(123456.7, 4), "123457");
-  EXPECT_EQ(frequency_text(0.0012345, 3), "0.00123");
-  EXPECT_EQ(frequency_text(0, 3), "0.00");
-  EXPECT_EQ(frequency_text(NAN, 4), "–");
+TEST(ModeText, NumbersHaveTheirSignificantDigitsAndNoExponent) {
+  EXPECT_EQ(significant_text(17.3456, 4), "17.35");
+  EXPECT_EQ(significant_text(9.99996, 4), "10.00");
+  EXPECT_EQ(significant_text(123456.7, 4), "123457");
+  EXPECT_EQ(significant_text(0.0012345, 3), "0.00123");
+  EXPECT_EQ(significant_text(0, 3), "0.00");
+  EXPECT_EQ(significant_text(NAN, 4), "–");
 }
 
 TEST(ModeText, PercentsKeepWhatIsSmall) {
@@ -34,7 +34,8 @@ TEST(ModeText, TitleTellsNumberFrequencyAndDamping) {
   EXPECT_EQ(mode_title(data, 0), "Mode 1 · 17.35 Hz · ζ 1.2 %");
   data.damping_ratio.setZero();
   EXPECT_EQ(mode_title(data, 2), "Mode 3 · 20.66 Hz");
-  EXPECT_THAT(mode_labels(frequencies_hz(data.omega)), testing::ElementsAre("1 · 17.35", "2 · 17.35", "3 · 20.66"));
+  EXPECT_THAT(mode_labels(frequencies_hz(data.omega)),
+              testing::ElementsAre("1 · 17.35", "2 · 17.35", "3 · 20.66"));
 }
 
 }  // namespace

@@ -24,7 +24,8 @@ inline bool shows_nan(const std::string& text) {
 
 inline std::size_t count_of(const std::string& what, const std::string& text) {
   std::size_t count = 0;
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + what.size())) ++count;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + what.size()))
+    ++count;
   return count;
 }
 

@@ -14,7 +14,8 @@ std::size_t grid_edge_count(int a, int b, int c) {
 }
 
 TEST(ElementEdges, AreTheLinesOfTheGridEachOnce) {
-  for (const Eigen::Vector3i& divisions : {Eigen::Vector3i(1, 1, 1), Eigen::Vector3i(4, 1, 1), Eigen::Vector3i(3, 4, 2)}) {
+  for (const Eigen::Vector3i& divisions :
+       {Eigen::Vector3i(1, 1, 1), Eigen::Vector3i(4, 1, 1), Eigen::Vector3i(3, 4, 2)}) {
     const HexahedralMesh mesh = make_block({2.4, 0.4, 0.4}, divisions);
     const auto edges = element_edges(mesh);
     EXPECT_EQ(edges.size(), grid_edge_count(divisions.x(), divisions.y(), divisions.z()));
