@@ -11,6 +11,7 @@
 #include "app/base64.h"
 #include "app/markup.h"
 #include "app/meta_text.h"
+#include "app/page.h"
 #include "app/table.h"
 
 namespace wishbone {
@@ -24,19 +25,6 @@ extern const std::string_view report_js;
 }  // namespace embedded
 
 namespace {
-
-/// Fills the places {{name}} of the page in one pass, so that what is filled in is not searched again.
-std::string filled(std::string_view page, const std::map<std::string, std::string, std::less<>>& places) {
-  std::string out;
-  for (std::size_t at = 0;;) {
-    const std::size_t open = page.find("{{", at);
-    out += page.substr(at, open - at);
-    if (open == std::string_view::npos) return out;
-    const std::size_t close = page.find("}}", open);
-    out += places.find(page.substr(open + 2, close - open - 2))->second;
-    at = close + 2;
-  }
-}
 
 /// The unit in which people read a quantity.
 struct DisplayUnit {
