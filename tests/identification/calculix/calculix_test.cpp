@@ -1,5 +1,5 @@
-// Identification of a structure of 3885 freedoms that another program modelled and solved: CalculiX gives modes
-// on a support to six digits, and what they are held against, the modes of the free structure.
+// Identification of a structure of 3885 freedoms that another program modelled and solved: CalculiX gives
+// modes on a support to six digits, and what they are held against, the modes of the free structure.
 #include <gtest/gtest.h>
 
 #include <numbers>
