@@ -87,6 +87,7 @@ std::vector<std::string> input_files(const std::string& path, const Scene& scene
   if (scene.vehicle) note(scene.vehicle->where);
   note(scene.analysis.where);
   note(scene.output.where);
+  files.insert(scene.data_files.begin(), scene.data_files.end());
   return {files.begin(), files.end()};
 }
 
@@ -134,7 +135,11 @@ void print_json(const Options& options, const RunResult& result) {
 
 ExitCode run(const Options& options) {
   const Scene scene = load_scene(options.scene, options.set);
-  check_output(options.output, input_files(options.scene, scene));
+  const std::vector<std::string> inputs = input_files(options.scene, scene);
+  check_output(options.output, inputs);
+  for (const Scene::Body& body : scene.bodies)
+    if (body.form == Scene::BodyForm::kModal && body.flexible->identification)
+      check_output(identified_modes_path(options.output, body.name), inputs);
   CompiledScene compiled = compile(scene);
   apply(options.analysis, compiled.transient);
 

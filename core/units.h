@@ -14,6 +14,7 @@ struct Dimension {
 };
 
 inline constexpr Dimension kRatio{"ratio", "1"};
+inline constexpr Dimension kFrequency{"frequency", "Hz"};
 inline constexpr Dimension kLength{"length", "m"};
 inline constexpr Dimension kMass{"mass", "kg"};
 inline constexpr Dimension kTime{"time", "s"};

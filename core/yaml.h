@@ -109,4 +109,16 @@ auto located(const Source& where, Step step) {
   }
 }
 
+/// Runs `step` and puts this place before the one of the error that it throws, if there is any.
+template <class Step>
+auto within(const Source& where, Step step) {
+  try {
+    return step();
+  } catch (const InputError& e) {
+    Diagnostic diagnostic = e.diagnostic();
+    diagnostic.where = where.text() + (diagnostic.where.empty() ? "" : ": " + diagnostic.where);
+    throw InputError(diagnostic);
+  }
+}
+
 }  // namespace wishbone

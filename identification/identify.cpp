@@ -21,25 +21,28 @@ std::string goal_text(const IdentificationTask& task) {
       return fmt::format("modes on a support of {} springs and {} joints", task.support.springs.size(),
                          task.support.joints.size());
     case Goal::kChanged:
-      return fmt::format("free-free modes after a design change ({} masses, {} springs{})", task.change.masses.size(),
-                         task.change.springs.size(), task.change.dM || task.change.dK ? ", matrices" : "");
+      return fmt::format("free-free modes after a design change ({} masses, {} springs{})",
+                         task.change.masses.size(), task.change.springs.size(),
+                         task.change.dM || task.change.dK ? ", matrices" : "");
     case Goal::kCorrected:
       break;
   }
   return "free-free modes of the corrected model";
 }
 
-std::string what_was_done(const IdentificationTask& task, const PreparedStructure& s, const Solution& solution) {
+std::string what_was_done(const IdentificationTask& task, const PreparedStructure& s,
+                          const Solution& solution) {
   const Support& support = s.data.support;
   const Eigen::Index complete = s.M.rows() - s.support.D.rows();
-  const std::string held = support.empty() ? std::string("a free structure")
-                                           : fmt::format("a support of {} springs, {} joints and {} masses",
-                                                         support.springs.size(), support.joints.size(),
-                                                         support.masses.size());
-  return fmt::format("{} {} from {} measured modes ({}complete set) of {} freedoms on {}, in {} space; wishbone {}",
-                     solution.modes.count(), goal_text(task), s.data.mode_count(),
-                     s.data.mode_count() < complete - (support.empty() ? s.rigid.cols() : 0) ? "in" : "",
-                     s.data.freedom_count(), held, task.space == Space::kModal ? "modal" : "physical", kVersion);
+  const std::string held =
+      support.empty() ? std::string("a free structure")
+                      : fmt::format("a support of {} springs, {} joints and {} masses",
+                                    support.springs.size(), support.joints.size(), support.masses.size());
+  return fmt::format(
+      "{} {} from {} measured modes ({}complete set) of {} freedoms on {}, in {} space; wishbone {}",
+      solution.modes.count(), goal_text(task), s.data.mode_count(),
+      s.data.mode_count() < complete - (support.empty() ? s.rigid.cols() : 0) ? "in" : "",
+      s.data.freedom_count(), held, task.space == Space::kModal ? "modal" : "physical", kVersion);
 }
 
 /// zeta_k = sum_j c_jk^2 zeta_j omega_j / omega_k: what the damping of the measured modes, that of their support
@@ -58,12 +61,14 @@ VectorX changed_masses(const IdentificationTask& task, const ModalData& data) {
   return mass;
 }
 
-ModalData as_modal_data(const IdentificationTask& task, const PreparedStructure& s, const Solution& solution) {
+ModalData as_modal_data(const IdentificationTask& task, const PreparedStructure& s,
+                        const Solution& solution) {
   const Eigen::Index m = solution.modes.count();
   if (!(solution.modes.lambda.minCoeff() > 0))
-    throw InputError({"identification", "an identified mode has no stiffness",
-                      fmt::format("lambda = {:.3g} rad2/s2", solution.modes.lambda.minCoeff()),
-                      "check the stiffness of the support: no more can be taken off than the modes were measured on"});
+    throw InputError(
+        {"identification", "an identified mode has no stiffness",
+         fmt::format("lambda = {:.3g} rad2/s2", solution.modes.lambda.minCoeff()),
+         "check the stiffness of the support: no more can be taken off than the modes were measured on"});
   ModalData modes = s.data;
   modes.title = task.title;
   modes.node_mass = task.goal == Goal::kCorrected ? VectorX() : changed_masses(task, s.data);

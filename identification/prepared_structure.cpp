@@ -38,8 +38,9 @@ MatrixX serep_basis(const ModalData& data, const AnalyticalModel& model, Prepare
   const SupportMatrices support = support_matrices(data.support, model.freedoms());
   const auto count = std::min<Eigen::Index>(data.freedom_count(), 2 * data.mode_count() + 6);
   const Modes basis = model_modes(model.K, model.M, support, count);
-  out.notes.push_back(fmt::format("expanded by SEREP from {} measured freedoms to {} with {} modes of the model",
-                                  data.freedom_count(), model.M.rows(), basis.count()));
+  out.notes.push_back(
+      fmt::format("expanded by SEREP from {} measured freedoms to {} with {} modes of the model",
+                  data.freedom_count(), model.M.rows(), basis.count()));
   return basis.shapes;
 }
 
@@ -67,7 +68,8 @@ void cover(const IdentificationTask& task, PreparedStructure& out) {
     case Coverage::kAsMeasured:
       break;
     case Coverage::kSerep:
-      take_model_freedoms(model, expand_serep(serep_basis(out.data, model, out), rows, out.data.shapes), out.data);
+      take_model_freedoms(model, expand_serep(serep_basis(out.data, model, out), rows, out.data.shapes),
+                          out.data);
       break;
     case Coverage::kStatic:
       take_model_freedoms(model, static_basis(out.data, model, rows) * out.data.shapes, out.data);
@@ -77,8 +79,8 @@ void cover(const IdentificationTask& task, PreparedStructure& out) {
     case Coverage::kGuyan:
       out.M = reduced(model.M, static_basis(out.data, model, rows)).sparseView();
       out.data.node_mass.resize(0);
-      out.notes.push_back(fmt::format("mass of {} freedoms reduced to the {} measured ones (Guyan)", model.M.rows(),
-                                      rows.size()));
+      out.notes.push_back(fmt::format("mass of {} freedoms reduced to the {} measured ones (Guyan)",
+                                      model.M.rows(), rows.size()));
       break;
   }
   if (out.M.size() == 0) out.M = model.M;
@@ -87,12 +89,12 @@ void cover(const IdentificationTask& task, PreparedStructure& out) {
 
 void find_masses(const RigidBodyData& body, PreparedStructure& out) {
   ModalData& data = out.data;
-  const MassDistribution found = distribute_mass(
-      body, data.node_position, data.shapes, support_matrices(data.support, data.freedoms).M_s);
+  const MassDistribution found = distribute_mass(body, data.node_position, data.shapes,
+                                                 support_matrices(data.support, data.freedoms).M_s);
   data.node_mass = found.node_mass;
   const std::string note =
-      fmt::format("nodal masses from {} equations for {} nodes: rank {}, relative residual {:.2e}", found.equations,
-                  data.node_count(), found.rank, found.residual);
+      fmt::format("nodal masses from {} equations for {} nodes: rank {}, relative residual {:.2e}",
+                  found.equations, data.node_count(), found.rank, found.residual);
   out.notes.push_back(note);
   data.provenance.push_back(note);
   if (found.rank < data.node_count())
@@ -100,8 +102,8 @@ void find_masses(const RigidBodyData& body, PreparedStructure& out) {
         fmt::format("the equations leave {} of {} nodal masses open: those of least norm were taken",
                     data.node_count() - found.rank, data.node_count()));
   if (found.residual > 1e-2)
-    out.warnings.push_back(fmt::format("no nodal masses fit the mass data and the modes: relative residual {:.1e}",
-                                       found.residual));
+    out.warnings.push_back(fmt::format(
+        "no nodal masses fit the mass data and the modes: relative residual {:.1e}", found.residual));
 }
 
 /// Lumped masses over the freedoms; every node with mass must be seen.
@@ -123,7 +125,8 @@ SparseMatrix lumped(const ModalData& data) {
     if (data.node_mass[i] > 0 && !seen.contains(data.node_ids[static_cast<std::size_t>(i)]))
       refuse("a node with mass was not measured",
              fmt::format("node {}", data.node_ids[static_cast<std::size_t>(i)]),
-             "lump its mass on its neighbours, or expand the measurement to a model (expansion: serep or static)");
+             "lump its mass on its neighbours, or expand the measurement to a model (expansion: serep or "
+             "static)");
   return diagonal_matrix(diagonal);
 }
 
@@ -155,7 +158,8 @@ PreparedStructure prepare(const IdentificationTask& task) {
   set_up_mass(task, out);
   warn_of_directions(out.data, out.warnings);
   out.support = support_matrices(out.data.support, out.data.freedoms);
-  out.rigid = rigid_body_basis(rigid_body_shapes(out.data.freedoms, out.data.node_ids, out.data.node_position), out.M);
+  out.rigid = rigid_body_basis(
+      rigid_body_shapes(out.data.freedoms, out.data.node_ids, out.data.node_position), out.M);
   return out;
 }
 

@@ -103,10 +103,12 @@ void change(const IdentificationTask& task, const PreparedStructure& s, const Re
 }
 
 /// The corrected model's own free-free modes.
-void correct(const IdentificationTask& task, const PreparedStructure& s, const ReleasedModes& free, Solution& out) {
+void correct(const IdentificationTask& task, const PreparedStructure& s, const ReleasedModes& free,
+             Solution& out) {
   if (!task.model || task.model->M.rows() != s.M.rows())
     throw InputError({"identification", "a correction needs a model over the freedoms of the modes",
-                      task.model ? fmt::format("{} freedoms of the model, {} of the modes", task.model->M.rows(), s.M.rows())
+                      task.model ? fmt::format("{} freedoms of the model, {} of the modes",
+                                               task.model->M.rows(), s.M.rows())
                                  : std::string("no model"),
                       "give the model's M and K, and expand modes that were measured at fewer points"});
   out.corrected = correct_model(task.model->M, task.model->K, free.modes);
@@ -122,7 +124,8 @@ void correct(const IdentificationTask& task, const PreparedStructure& s, const R
 
 Solution solve(const IdentificationTask& task, const PreparedStructure& s, const Modes& measured) {
   const ReleasedModes free = free_modes(task, s, measured);
-  Solution out{free.modes, s.M, SparseMatrix(0, s.M.rows()), free.residual, free.coefficients, 0, free.lost_modes, {}};
+  Solution out{free.modes,      s.M, SparseMatrix(0, s.M.rows()), free.residual, free.coefficients, 0,
+               free.lost_modes, {}};
   out.support_ratio = ratio_to_kept_stiffness(s.support.K_s, s.M, measured);
   const SparseMatrix no_joints(0, s.M.rows());
   switch (task.goal) {

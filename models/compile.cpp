@@ -1,21 +1,39 @@
 #include "models/compile.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
+#include "core/yaml.h"
 #include "identification/elements/hexahedral_mesh.h"
 #include "identification/free_free_modes.h"
+#include "identification/mode_set_of.h"
 #include "solver/system_builder.h"
 
 namespace wishbone {
 namespace {
 
-/// The modes of a body that the scene describes as a block of hexahedra.
+/// The lowest modes of a body that the scene describes as a block of hexahedra.
 ModeSet block_modes(const Scene::Flexible& flexible) {
-  const HexahedralMesh mesh = make_block(flexible.size, flexible.elements);
-  ModeSet modes =
-      free_free_modes(mesh, {flexible.young, flexible.poisson, flexible.density}).lowest(flexible.modes);
-  modes.damping_ratio = Eigen::Map<const VectorX>(flexible.damping.data(), modes.mode_count());
-  return modes;
+  const Scene::Block& block = *flexible.block;
+  const HexahedralMesh mesh = make_block(block.size, block.elements);
+  return free_free_modes(mesh, {block.young, block.poisson, block.density}).lowest(flexible.modes);
+}
+
+/// The ratios that the scene gives; those of the modes where it gives none.
+void set_damping(const Scene::Body& body, ModeSet& modes) {
+  const std::vector<double>& ratios = body.flexible->damping;
+  if (ratios.empty()) return;
+  const auto count = static_cast<Eigen::Index>(ratios.size());
+  if (count == 1)
+    modes.damping_ratio.setConstant(modes.mode_count(), ratios[0]);
+  else if (count == modes.mode_count())
+    modes.damping_ratio = Eigen::Map<const VectorX>(ratios.data(), count);
+  else
+    throw InputError(
+        {body.where.text() + ".flexible.damping",
+         fmt::format("there are {} damping ratios for {} identified modes", count, modes.mode_count()), "",
+         "give one ratio for all modes, or one per mode"});
 }
 
 /// One scene on its way into a SystemBuilder.
@@ -34,6 +52,7 @@ class Compiler {
       builder_.add_force(AppliedLoad(load.name, marker(load.point), {load.moment, load.force},
                                      load.in_body_axes ? LoadAxes::kMarker : LoadAxes::kWorld));
     CompiledScene compiled;
+    compiled.identified = std::move(identified_);
     std::tie(compiled.system, compiled.initial) = std::move(builder_).build();
     compiled.observer = observer();
     compiled.transient = transient();
@@ -46,9 +65,19 @@ class Compiler {
   void add_body(const Scene::Body& body) {
     const Pose X_WB = scene_.X_WD * body.X_DB;
     const int index = body.form == Scene::BodyForm::kModal
-                          ? builder_.add_flexible_body(body.name, block_modes(*body.flexible), X_WB)
+                          ? builder_.add_flexible_body(body.name, modes_of(body), X_WB)
                           : builder_.add_body(body.name, body.mass, body.inertia, X_WB);
     builder_.set_velocity(index, body.v_WBo, body.w_WB_B);
+  }
+
+  ModeSet modes_of(const Scene::Body& body) {
+    ModeSet modes = within(body.where, [&] {
+      if (!body.flexible->identification) return block_modes(*body.flexible);
+      identified_.push_back({body.name, identify(*body.flexible->identification)});
+      return mode_set_of(identified_.back().identification.modes);
+    });
+    set_damping(body, modes);
+    return modes;
   }
 
   bool is_modal(int body) const {
@@ -200,6 +229,7 @@ class Compiler {
 
   const Scene& scene_;
   SystemBuilder builder_;
+  std::vector<IdentifiedBody> identified_;
 };
 
 }  // namespace

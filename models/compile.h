@@ -1,5 +1,9 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
+#include "identification/identify.h"
 #include "models/scene.h"
 #include "solver/observer.h"
 #include "solver/system.h"
@@ -7,12 +11,19 @@
 
 namespace wishbone {
 
+/// What was identified for a flexible body.
+struct IdentifiedBody {
+  std::string body;
+  Identification identification;
+};
+
 /// A scene made ready to run.
 struct CompiledScene {
   System system;
   State initial;  ///< before assembly
   ObserverOptions observer;
   TransientOptions transient;
+  std::vector<IdentifiedBody> identified;
 };
 
 /// Builds the System of a scene: places the design pose, prepares the modes of flexible bodies, keeps what this scene needs and

@@ -4,8 +4,10 @@
 
 #include <chrono>
 #include <ctime>
+#include <filesystem>
 
 #include "core/version.h"
+#include "identification/formats/identification_file.h"
 
 namespace wishbone {
 namespace {
@@ -72,10 +74,17 @@ void check_start(const CompiledScene& compiled) {
 
 }  // namespace
 
+std::string identified_modes_path(const std::string& output_path, const std::string& body) {
+  const std::filesystem::path path(output_path);
+  return (path.parent_path() / (path.stem().string() + "." + body + "_modes.h5")).string();
+}
+
 RunResult run_scene(const Scene& scene, const CompiledScene& compiled, const RunRequest& request) {
   const auto wall_start = std::chrono::steady_clock::now();
   const std::clock_t cpu_start = std::clock();
   check_start(compiled);
+  for (const IdentifiedBody& body : compiled.identified)
+    write_identification(identified_modes_path(request.output_path, body.body), body.identification);
   RunResult result;
   Workspace ws(compiled.system);
   Observer observer(compiled.system, compiled.observer);

@@ -18,6 +18,9 @@ struct RunRequest {
       {};  ///< what was said instead of the scene's analysis, as written; kept too
 };
 
+/// Where a run with these results keeps the modes that it identified for a body: OUT.BODY_modes.h5 beside OUT.h5.
+std::string identified_modes_path(const std::string& output_path, const std::string& body);
+
 /// What the run came to, for the terminal and for machines.
 struct RunResult {
   TransientSummary summary;
@@ -26,7 +29,7 @@ struct RunResult {
   double wall_seconds = 0, cpu_seconds = 0;
 };
 
-/// Runs the compiled scene and streams every signal to the results file. A run that fails keeps what it computed; the file
+/// Keeps the modes that were identified for its bodies, runs the compiled scene and streams every signal to the results file. A run that fails keeps what it computed; the file
 /// says so in its status.
 /// @throws InputError when form and integrator do not fit the scene or it cannot be assembled: then no file is made and one
 ///   of that name stays as it is; NumericsError when the file cannot be written

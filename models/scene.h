@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,8 @@
 #include "core/spatial.h"
 
 namespace wishbone {
+
+struct IdentificationTask;
 
 /// What the user wrote, checked and in SI units; no behaviour. Everything is described in the design pose and
 /// in one design frame D, which `X_WD` places in the inertial frame W. Bodies, joints, ... refer to one
@@ -18,26 +21,34 @@ struct Scene {
   /// A point where a joint or force takes hold.
   struct Point {
     int body = kGround;              ///< index into `bodies`, or kGround
-    int node = 0;                    ///< node of the body's block, from 1; 0: none was named
+    int node = 0;                    ///< id of a node of the body; 0: none was named
     Vector3 p_DP = Vector3::Zero();  ///< position in D [m]; that of the node when one was named
   };
 
   /// A rectangular block of 8-node hexahedra, centred at the body origin, edges along the body axes.
-  struct Flexible {
+  struct Block {
     Vector3 size = Vector3::Zero();     ///< edge lengths [m]
     Eigen::Vector3i elements{1, 1, 1};  ///< number of elements along each edge
     double young = 0;                   ///< Young's modulus [Pa]
     double poisson = 0;                 ///< Poisson's ratio
     double density = 0;                 ///< [kg/m3]
-    int modes = 0;                      ///< lowest elastic modes kept
-    std::vector<double> damping;        ///< damping ratio of each kept mode
+  };
+
+  /// Nodes of a body and where its elastic modes come from: the block, or an identification.
+  struct Flexible {
+    std::vector<int> node_ids;
+    Matrix3X node_position;  ///< 3 x n, body axes, from the mass centre [m]
+    std::optional<Block> block;
+    std::shared_ptr<const IdentificationTask> identification;  ///< null: modes of the block
+    int modes = 0;                                             ///< lowest elastic modes kept of the block's
+    std::vector<double> damping;  ///< damping ratio of each kept mode; empty: as identified
   };
 
   enum class BodyForm { kRigid, kModal };
   struct Body {
     std::string name;
     BodyForm form = BodyForm::kRigid;
-    double mass = 0;                    ///< [kg]; of a modal body: as written, unused (the block has its own)
+    double mass = 0;  ///< [kg]; of a modal body: as written, unused (its nodes have their own)
     Matrix3 inertia = Matrix3::Zero();  ///< about the mass centre, body axes [kg m2]; modal: as for `mass`
     Pose X_DB;                          ///< design pose; Bo is the mass centre [m]
     Vector3 v_WBo = Vector3::Zero();    ///< initial velocity, inertial axes [m/s]; of free bodies
@@ -179,6 +190,7 @@ struct Scene {
     Source where;
   };
 
+  std::vector<std::string> data_files;  ///< that identifications read
   std::string title;
   std::string text;              ///< the resolved document as YAML; loading it gives the same scene
   Vector3 gravity{0, 0, -9.81};  ///< inertial axes [m/s2]

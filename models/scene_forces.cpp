@@ -102,7 +102,7 @@ Scene::Point read_point(const Scene& scene, int body, const std::optional<Value>
   if (at && node) place.refuse("the point is named twice, by 'at' and by 'node'", "remove one of them");
   if (node) {
     const int number = read_node(*node, holder);
-    return {body, number, holder.X_DB * block_node_position(*holder.flexible, number)};
+    return {body, number, node_place(holder, number)};
   }
   if (holder.form == Scene::BodyForm::kModal) {
     place.refuse(fmt::format("the flexible body '{}' can be held at its nodes only", holder.name),

@@ -33,7 +33,7 @@ Side read_side(const Scene& scene, const Value& value) {
   side.point.body = read_body(scene, keys.required("body"));
   const Scene::Body& body = scene.bodies[static_cast<std::size_t>(side.point.body)];
   side.point.node = read_node(keys.required("node"), body);
-  side.point.p_DP = body.X_DB * block_node_position(*body.flexible, side.point.node);
+  side.point.p_DP = node_place(body, side.point.node);
   return side;
 }
 

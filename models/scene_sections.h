@@ -33,12 +33,16 @@ void check_tree(const Scene& scene);
 /// {axis, angle} as a rotation matrix.
 Matrix3 read_rotation(const Value& axis, const Value& angle);
 
-/// Number of nodes of a block, and the position of one of them (from 1) in body axes [m]. Nodes are counted
-/// section by section along x, within a section row by row in z, the rows alternately along +y and -y.
-int block_node_count(const Scene::Flexible& block);
-Vector3 block_node_position(const Scene::Flexible& block, int node);
+/// The block of hexahedra that the keys `block` and `material` describe.
+Scene::Block read_block(const Value& block, const Value& material);
 
-/// A node number of a body (from 1); throws InputError when the body has no such node.
+/// [Jxx, Jyy, Jzz] or [Jxx, Jyy, Jzz, Jxy, Jxz, Jyz], components of the tensor.
+Matrix3 read_inertia(const Value& value);
+
+/// Position of a node in D [m].
+Vector3 node_place(const Scene::Body& body, int node);
+
+/// The id of a node of a body; throws InputError when the body has no such node.
 int read_node(const Value& node, const Scene::Body& body);
 
 /// The point of a body that is named by a node or by a position in D, by default the mass centre.

@@ -40,7 +40,8 @@ ReferenceComparison compare(const ModalData& modes, const ModalData& reference, 
   ReferenceComparison comparison;
   comparison.name = name;
   comparison.reference_hz = hertz(reference.omega);
-  comparison.mac = modal_assurance(modes.shapes(rows, Eigen::all), reference.shapes(reference_rows, Eigen::all));
+  comparison.mac =
+      modal_assurance(modes.shapes(rows, Eigen::all), reference.shapes(reference_rows, Eigen::all));
   comparison.partner = partners(comparison.mac);
   comparison.frequency_error = VectorX::Constant(modes.mode_count(), kNaN);
   for (int j = 0; j < modes.mode_count(); ++j)
@@ -57,7 +58,8 @@ double condition_number(const MatrixX& symmetric) {
 
 void list_condition_numbers(const PreparedStructure& s, const Modes& unit, Judgement& judgement) {
   auto& list = judgement.condition_numbers;
-  list.emplace_back("Psi^T M Psi of the measured modes", condition_number(unit.shapes.transpose() * (s.M * unit.shapes)));
+  list.emplace_back("Psi^T M Psi of the measured modes",
+                    condition_number(unit.shapes.transpose() * (s.M * unit.shapes)));
   if (s.support.D.rows() > 0) {
     const VectorX singular = MatrixX(s.support.D * s.rigid).bdcSvd().singularValues();
     list.emplace_back("D Psi_0 of the joints", singular[0] / singular[singular.size() - 1]);
@@ -83,38 +85,38 @@ std::string mode_list(const std::vector<int>& modes) {
 void warn_of_data(const PreparedStructure& s, const Modes& unit, Judgement& judgement) {
   constexpr double kLargeError = 0.1, kLargeImbalance = 0.05;
   if (judgement.input_orthogonality_error > kLargeError)
-    judgement.warnings.push_back(
-        fmt::format("the measured modes are not orthogonal in the given masses: largest product {:.2f}; check the "
-                    "masses, the numbering and the directions",
-                    judgement.input_orthogonality_error));
+    judgement.warnings.push_back(fmt::format(
+        "the measured modes are not orthogonal in the given masses: largest product {:.2f}; check the "
+        "masses, the numbering and the directions",
+        judgement.input_orthogonality_error));
   const bool on_springs_alone = s.support.D.rows() == 0 && s.support.K_s.nonZeros() > 0;
   if (!on_springs_alone) return;
   if (const double error = imbalance(s, unit); error > kLargeImbalance)
-    judgement.warnings.push_back(
-        fmt::format("the measured modes contradict the given springs and masses: inertia and spring forces are out "
-                    "of balance by {:.1f} %",
-                    100 * error));
+    judgement.warnings.push_back(fmt::format(
+        "the measured modes contradict the given springs and masses: inertia and spring forces are out "
+        "of balance by {:.1f} %",
+        100 * error));
 }
 
 void warn_of_result(const Solution& solution, Judgement& judgement) {
   constexpr double kStiffSupport = 1, kLargeResidual = 0.2;
   if (solution.support_ratio > kStiffSupport)
-    judgement.warnings.push_back(
-        fmt::format("the kept modes cannot carry the support: it is {:.2g} times as stiff as the stiffest of them; "
-                    "keep more modes or use a softer support",
-                    solution.support_ratio));
+    judgement.warnings.push_back(fmt::format(
+        "the kept modes cannot carry the support: it is {:.2g} times as stiff as the stiffest of them; "
+        "keep more modes or use a softer support",
+        solution.support_ratio));
   if (solution.lost_modes > 0)
-    judgement.warnings.push_back(
-        fmt::format("the support is over-constrained: {} elastic modes cannot be recovered, and the frequencies of "
-                    "modes that strain the support are too high by an unknown amount",
-                    solution.lost_modes));
+    judgement.warnings.push_back(fmt::format(
+        "the support is over-constrained: {} elastic modes cannot be recovered, and the frequencies of "
+        "modes that strain the support are too high by an unknown amount",
+        solution.lost_modes));
   std::vector<int> poor;
   for (Eigen::Index j = 0; j < solution.residual.size(); ++j)
     if (solution.residual[j] > kLargeResidual) poor.push_back(static_cast<int>(j) + 1);
   if (!poor.empty())
     judgement.warnings.push_back(
-        fmt::format("the measured set leaves more than {:.0f} % of the forces of mode{} {} open", 100 * kLargeResidual,
-                    poor.size() > 1 ? "s" : "", mode_list(poor)));
+        fmt::format("the measured set leaves more than {:.0f} % of the forces of mode{} {} open",
+                    100 * kLargeResidual, poor.size() > 1 ? "s" : "", mode_list(poor)));
 }
 
 void judge_noise(const IdentificationTask& task, const PreparedStructure& s, const Modes& identified,
@@ -123,14 +125,15 @@ void judge_noise(const IdentificationTask& task, const PreparedStructure& s, con
   judgement.frequency_std_hz = frequency_deviation(
       s.measured(), *task.noise, [&](const Modes& measured) { return solve(task, s, measured).modes; });
   judgement.notes.push_back(fmt::format(
-      "standard deviations from {} repetitions with {:.3g} % scatter of frequencies and {:.3g} % of shapes (seed {})",
+      "standard deviations from {} repetitions with {:.3g} % scatter of frequencies and {:.3g} % of shapes "
+      "(seed {})",
       task.noise->samples, 100 * task.noise->frequency, 100 * task.noise->shape, task.noise->seed));
   std::vector<int> lost;
   for (Eigen::Index j = 0; j < identified.count(); ++j)
     if (!std::isfinite(judgement.frequency_std_hz[j])) lost.push_back(static_cast<int>(j) + 1);
   if (!lost.empty())
-    judgement.warnings.push_back(
-        fmt::format("under this noise mode{} {} cannot be told from others", lost.size() > 1 ? "s" : "", mode_list(lost)));
+    judgement.warnings.push_back(fmt::format("under this noise mode{} {} cannot be told from others",
+                                             lost.size() > 1 ? "s" : "", mode_list(lost)));
 }
 
 }  // namespace

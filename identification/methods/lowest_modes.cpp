@@ -40,8 +40,7 @@ void check_matrix(const char* name, const SparseMatrix& A, Index n) {
                "look where the matrix comes from");
   const double asymmetry = SparseMatrix(A - SparseMatrix(A.transpose())).norm();
   if (!(asymmetry <= 1e-8 * A.norm()))
-    reject(fmt::format("{} must be symmetric", name),
-           fmt::format("asymmetry {:.3g}", asymmetry / A.norm()),
+    reject(fmt::format("{} must be symmetric", name), fmt::format("asymmetry {:.3g}", asymmetry / A.norm()),
            "store both triangles; take the symmetric part if the difference is noise");
 }
 
@@ -135,9 +134,7 @@ class BlockLanczos {
 
  private:
   /// X <- X - Q Q^T M X
-  void project(Eigen::Ref<MatrixX> X) const {
-    X -= Q_.leftCols(m_) * (MQ_.leftCols(m_).transpose() * X);
-  }
+  void project(Eigen::Ref<MatrixX> X) const { X -= Q_.leftCols(m_) * (MQ_.leftCols(m_).transpose() * X); }
 
   /// Appends what `w` adds to the span of the basis: something random where it adds nothing, that is, where
   /// the Krylov space is exhausted.

@@ -17,7 +17,8 @@ VectorX relative_residuals(const Modes& modes, const MatrixX& K_shapes, const Sp
     r -= D_T * gram.completeOrthogonalDecomposition().solve(carried.transpose() * r);
   }
   const MatrixX carried = mass.solve(r);
-  return r.cwiseProduct(carried).colwise().sum().transpose().cwiseMax(0).cwiseSqrt().cwiseQuotient(modes.lambda);
+  return r.cwiseProduct(carried).colwise().sum().transpose().cwiseMax(0).cwiseSqrt().cwiseQuotient(
+      modes.lambda);
 }
 
 }  // namespace wishbone

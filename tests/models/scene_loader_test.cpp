@@ -9,7 +9,6 @@
 #include <set>
 #include <string>
 
-#include "identification/elements/hexahedral_mesh.h"
 #include "models/scene_sections.h"
 #include "text_files.h"
 
@@ -130,48 +129,18 @@ TEST_F(SceneText, LongChainsLoad) {
 }
 
 TEST(BlockNodes, FollowTheVehiclesTable) {
-  Scene::Flexible block;
-  block.size = {2.4, 0.4, 0.4};
-  block.elements = {4, 1, 1};
-  ASSERT_EQ(scene_sections::block_node_count(block), 20);
+  const Scene scene = depression();
+  const auto& flexible = *body_named(scene, "chassis").flexible;
+  ASSERT_EQ(flexible.node_ids.size(), 20u);
   const std::array<Vector3, 4> section{Vector3(0, -0.2, -0.2), Vector3(0, 0.2, -0.2), Vector3(0, 0.2, 0.2),
                                        Vector3(0, -0.2, 0.2)};
   for (int s = 0; s < 5; ++s) {
     for (int i = 0; i < 4; ++i) {
-      const Vector3 expected = section[static_cast<std::size_t>(i)] + Vector3(-1.2 + 0.6 * s, 0, 0);
-      EXPECT_LT((scene_sections::block_node_position(block, 4 * s + i + 1) - expected).norm(), 1e-15);
+      const Vector3 expected = section[static_cast<std::size_t>(i)] + Vector3(-1.2 + 0.6 * s, 0, 0.5);
+      EXPECT_LT((scene_sections::node_place(body_named(scene, "chassis"), 4 * s + i + 1) - expected).norm(),
+                1e-15);
     }
   }
-}
-
-TEST(BlockNodes, AreThoseOfTheFiniteElementMesh) {
-  Scene::Flexible block;
-  block.size = {2.4, 0.5, 0.3};
-  block.elements = {3, 2, 4};
-  const HexahedralMesh mesh = make_block(block.size, block.elements);
-  ASSERT_EQ(mesh.nodes.cols(), scene_sections::block_node_count(block));
-  for (int node = 1; node <= mesh.nodes.cols(); ++node) {
-    ASSERT_EQ(mesh.node_ids[static_cast<std::size_t>(node - 1)], node);
-    EXPECT_LT((mesh.nodes.col(node - 1) - scene_sections::block_node_position(block, node)).norm(), 1e-15);
-  }
-}
-
-TEST(BlockNodes, FillTheGridOnce) {
-  Scene::Flexible block;
-  block.size = {2, 3, 4};
-  block.elements = {2, 3, 4};  // so that the nodes have whole coordinates, y shifted by a half
-  std::set<std::array<long, 3>> seen;
-  Vector3 last = Vector3::Zero();
-  for (int node = 1; node <= scene_sections::block_node_count(block); ++node) {
-    const Vector3 p = scene_sections::block_node_position(block, node) - Vector3(0, 0.5, 0);
-    seen.insert({std::lround(p.x()), std::lround(p.y()), std::lround(p.z())});
-    EXPECT_LE(p.x(), 1);
-    if (node > 1 && p.x() == last.x()) {
-      EXPECT_NEAR((p - last).norm(), 1, 1e-14) << node;  // there and back: one step to the next
-    }
-    last = p;
-  }
-  EXPECT_EQ(seen.size(), 60u);
 }
 
 TEST(Car, HasTheTabulatedMassesAndPlaces) {
@@ -295,7 +264,7 @@ TEST(Car, RigidAndModalChassisAreHeldAtTheSamePlaces) {
     EXPECT_EQ(modal.joints[j].parent.p_DP, rigid.joints[j].parent.p_DP);
   }
   const auto& flexible = *body_named(modal, "chassis").flexible;
-  EXPECT_DOUBLE_EQ(flexible.size.prod() * flexible.density, 998.4);
+  EXPECT_DOUBLE_EQ(flexible.block->size.prod() * flexible.block->density, 998.4);
   EXPECT_EQ(flexible.modes, 54);
   EXPECT_EQ(depression({"modes=10", "damping=5 %"}).bodies[0].flexible->damping,
             std::vector<double>(10, 0.05));

@@ -1,0 +1,95 @@
+#include <fmt/core.h>
+
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "app/check_output.h"
+#include "app/command.h"
+#include "app/identification_html.h"
+#include "app/identification_pictures.h"
+#include "app/identification_text.h"
+#include "app/text_file.h"
+#include "identification/formats/identification_file.h"
+#include "identification/formats/matrix_market.h"
+#include "identification/formats/modal_file.h"
+#include "models/identification_loader.h"
+
+namespace wishbone {
+
+namespace {
+
+struct Options {
+  std::string input, output;
+  std::vector<std::string> set;
+  std::optional<std::string> also, html, pictures, matrices;
+  bool json = false;
+};
+
+/// Names of the files of the corrected matrices.
+std::string mass_file(const std::string& prefix) {
+  return prefix + "_M.mtx";
+}
+std::string stiffness_file(const std::string& prefix) {
+  return prefix + "_K.mtx";
+}
+
+void check_outputs(const Options& options, const std::vector<std::string>& inputs) {
+  check_output(options.output, inputs);
+  if (options.also)
+    for (const auto& file : modal_data_files(*options.also)) check_output(file.string(), inputs);
+  if (options.html) check_output(*options.html, inputs);
+  if (!options.matrices) return;
+  check_output(mass_file(*options.matrices), inputs);
+  check_output(stiffness_file(*options.matrices), inputs);
+}
+
+void write_outputs(const Options& options, const Identification& result) {
+  write_identification(options.output, result);
+  if (options.also) write_modal_data(*options.also, result.modes);
+  if (options.html) write_text_file(*options.html, identification_html(result));
+  if (options.pictures) write_pictures(*options.pictures, result);
+  if (!options.matrices) return;
+  const auto symmetric = [](const MatrixX& A) -> SparseMatrix { return MatrixX((A + A.transpose()) / 2).sparseView(); };
+  write_matrix_market(mass_file(*options.matrices), symmetric(result.corrected->M), true);
+  write_matrix_market(stiffness_file(*options.matrices), symmetric(result.corrected->K), true);
+}
+
+ExitCode run(const Options& options) {
+  const LoadedIdentification loaded = load_identification(options.input, options.set);
+  check_outputs(options, loaded.files);
+  if (options.matrices && loaded.task.goal != Goal::kCorrected)
+    throw InputError({"--matrices", "there are matrices only of a corrected model", *options.matrices,
+                      "write 'find: corrected' in the file, or leave the option out"});
+  const Identification result = identify(loaded.task);
+  write_outputs(options, result);
+  if (options.json)
+    fmt::print("{}\n", json_of(result).dump(2));
+  else
+    fmt::print("{}\nmodes in {}\n", text_of(result), options.output);
+  return kDone;
+}
+
+}  // namespace
+
+void add_identify(CLI::App& app, ExitCode& exit_code) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("identify", "Find the modes of a structure from modes that were measured on a support");
+  command->add_option("IDENT", options->input, "file with a section 'identification' (YAML)")->required();
+  command->add_option("-o,--output", options->output, "mode file to write (HDF5)")->required();
+  command->add_option("--set", options->set, "replace a parameter of the file: name=value (several allowed)");
+  command->add_option("--also", options->also, "write the modes in another format too: .unv, .uff, .csv, .h5");
+  command->add_option("--html", options->html, "write a page with tables and pictures to this file");
+  command->add_option("--pictures", options->pictures, "write mode shapes and MAC matrices as SVG into this folder");
+  command->add_option("--matrices", options->matrices,
+                      "write a corrected model to PREFIX_M.mtx and PREFIX_K.mtx (MatrixMarket)");
+  command->add_flag("--json", options->json, "print JSON");
+  command->footer(
+      "What the file may say: docs/identification.md.\n\n"
+      "Example:\n  wishbone identify models/identification/chassis_on_springs.yaml -o chassis.h5 --html chassis.html");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace wishbone

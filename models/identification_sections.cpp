@@ -1,0 +1,231 @@
+#include "models/identification_sections.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "identification/formats/csv_modal_data.h"
+#include "identification/formats/matrix_market.h"
+#include "identification/elements/element_edges.h"
+#include "identification/elements/hexahedral_mesh.h"
+#include "models/scene_sections.h"
+
+namespace wishbone::identification_sections {
+namespace {
+
+constexpr int kLargestId = std::numeric_limits<int>::max();
+
+int read_id(const Value& value) {
+  return value.integer(std::numeric_limits<int>::min(), kLargestId);
+}
+
+/// One stiffness for x, y and z, or one each; zero: none in that direction.
+Vector3 read_stiffnesses(const Value& value) {
+  if (!value.is_list()) return Vector3::Constant(value.positive(kStiffness));
+  const Vector3 k = value.vector3(kStiffness);
+  if (!(k.minCoeff() >= 0 && k.maxCoeff() > 0))
+    value.refuse("the stiffnesses of a spring must not be negative, nor all zero", "write [kx, ky, kz]");
+  return k;
+}
+
+void read_springs(const Value& item, Support& support) {
+  const Mapping keys(item, {"node", "nodes", "stiffness", "direction"});
+  const std::vector<int> nodes = read_nodes(keys);
+  const Value stiffness = keys.required("stiffness");
+  const auto direction = keys.optional("direction");
+  for (const int node : nodes) {
+    if (direction) {
+      support.springs.push_back({node, direction->direction(), stiffness.positive(kStiffness)});
+      continue;
+    }
+    const Vector3 k = read_stiffnesses(stiffness);
+    for (int axis = 0; axis < 3; ++axis)
+      if (k[axis] > 0) support.springs.push_back({node, Vector3::Unit(axis), k[axis]});
+  }
+}
+
+void read_joints(const Value& item, Support& support) {
+  const Mapping keys(item, {"node", "nodes", "axes", "direction"});
+  const auto direction = keys.optional("direction");
+  if (direction && keys.has("axes"))
+    keys.refuse("a joint has either axes or a direction", "remove one of the two");
+  for (const int node : read_nodes(keys)) {
+    if (direction) {
+      support.joints.push_back({node, direction->direction()});
+      continue;
+    }
+    const Value axes = keys.required("axes");
+    const std::string& letters = axes.text();
+    const bool known = !letters.empty() && letters.find_first_not_of("xyz") == std::string::npos;
+    std::string sorted = letters;
+    std::sort(sorted.begin(), sorted.end());
+    if (!known || std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
+      axes.refuse("the axes of a joint are letters out of x, y, z, each once", "write 'xyz', 'z', ...");
+    for (const char letter : letters) support.joints.push_back({node, Vector3::Unit(letter - 'x')});
+  }
+}
+
+std::vector<Support::Mass> read_masses(const Value& list, bool of_any_sign) {
+  std::vector<Support::Mass> masses;
+  for (const Value& item : list.list()) {
+    const Mapping keys(item, {"node", "nodes", "mass"});
+    const Value mass = keys.required("mass");
+    for (const int node : read_nodes(keys))
+      masses.push_back({node, of_any_sign ? mass.number(kMass) : mass.non_negative(kMass)});
+  }
+  return masses;
+}
+
+StructureChange::Spring read_connection(const Value& item, const ModalData& structure) {
+  const Mapping keys(item, {"nodes", "stiffness", "direction"});
+  const Value nodes = keys.required("nodes");
+  const std::vector<Value> ends = nodes.list();
+  if (ends.size() != 2) nodes.refuse("a spring of a design change joins two nodes", "write nodes: [a, b]");
+  StructureChange::Spring spring;
+  spring.nodes = {read_id(ends[0]), read_id(ends[1])};
+  spring.stiffness = keys.required("stiffness").number(kStiffness);
+  located(nodes.where(), [&] {
+    const Vector3 along = structure.node_position.col(structure.node_index(spring.nodes[1])) -
+                          structure.node_position.col(structure.node_index(spring.nodes[0]));
+    const auto direction = keys.optional("direction");
+    if (!direction && !(along.norm() > 0))
+      nodes.refuse("the two nodes are in one place, so that a direction must be given", "add 'direction: [x, y, z]'");
+    spring.direction = direction ? direction->direction() : along.normalized();
+    return 0;
+  });
+  return spring;
+}
+
+}  // namespace
+
+std::filesystem::path Files::note(const Value& name) {
+  const Source& where = name.where();
+  const std::filesystem::path folder = where.file ? std::filesystem::path(*where.file).parent_path() : "";
+  const std::filesystem::path path = (folder / name.text()).lexically_normal();
+  add(path);
+  return path;
+}
+
+std::vector<int> read_nodes(const Mapping& keys) {
+  const auto one = keys.optional("node");
+  const auto several = keys.optional("nodes");
+  if (one.has_value() == several.has_value())
+    keys.refuse("either 'node' or 'nodes' says where it is", "write 'node: 3' or 'nodes: [3, 4]'");
+  if (one) return {read_id(*one)};
+  std::vector<int> nodes;
+  for (const Value& item : several->list()) nodes.push_back(read_id(item));
+  if (nodes.empty()) several->refuse("there are no nodes in the list", "name at least one");
+  return nodes;
+}
+
+Support read_support(const Value& value) {
+  const Mapping keys(value, {"springs", "joints", "masses"});
+  Support support;
+  if (const auto springs = keys.optional("springs"))
+    for (const Value& item : springs->list()) read_springs(item, support);
+  if (const auto joints = keys.optional("joints"))
+    for (const Value& item : joints->list()) read_joints(item, support);
+  if (const auto masses = keys.optional("masses")) support.masses = read_masses(*masses, false);
+  return support;
+}
+
+StructureChange read_change(const Value& value, const ModalData& structure, Files& files) {
+  const Mapping keys(value, {"masses", "springs", "mass_matrix", "stiffness_matrix"});
+  StructureChange change;
+  if (const auto masses = keys.optional("masses")) change.masses = read_masses(*masses, true);
+  if (const auto springs = keys.optional("springs"))
+    for (const Value& item : springs->list()) change.springs.push_back(read_connection(item, structure));
+  if (const auto matrix = keys.optional("mass_matrix")) change.dM = read_matrix_market(files.note(*matrix));
+  if (const auto matrix = keys.optional("stiffness_matrix")) change.dK = read_matrix_market(files.note(*matrix));
+  if (change.empty()) keys.refuse("there is no change", "name masses, springs or matrices");
+  return change;
+}
+
+AnalyticalModel block_model(const Vector3& size, const Eigen::Vector3i& elements, double young, double poisson,
+                            double density) {
+  const HexahedralMesh mesh = make_block(size, elements);
+  const IsotropicMaterial material{young, poisson, density};
+  AnalyticalModel model;
+  model.node_ids = mesh.node_ids;
+  model.node_position = mesh.nodes;
+  model.node_mass = lumped_mass(mesh, density);
+  model.M = lumped_mass_matrix(model.node_mass);
+  model.K = stiffness_matrix(mesh, material);
+  model.lines = element_edges(mesh);
+  return model;
+}
+
+AnalyticalModel read_model(const Value& value, Files& files) {
+  const Mapping keys(value, {"block", "material", "nodes", "stiffness", "mass"});
+  if (keys.has("block")) {
+    const Scene::Block block = scene_sections::read_block(keys.required("block"), keys.required("material"));
+    return block_model(block.size, block.elements, block.young, block.poisson, block.density);
+  }
+  const NodeTable nodes = read_csv_nodes(files.note(keys.required("nodes")));
+  AnalyticalModel model;
+  model.node_ids = nodes.ids;
+  model.node_position = nodes.position;
+  model.K = read_matrix_market(files.note(keys.required("stiffness")));
+  if (const auto mass = keys.optional("mass")) {
+    model.M = read_matrix_market(files.note(*mass));
+  } else if (nodes.mass.size() > 0) {
+    model.node_mass = nodes.mass;
+    model.M = lumped_mass_matrix(nodes.mass);
+  } else {
+    keys.refuse("the masses of the model are not known", "add 'mass: M.mtx', or a column 'mass' to the nodes");
+  }
+  const Eigen::Index n = model.node_position.size();
+  for (const auto& [key, matrix] : {std::pair<const char*, const SparseMatrix*>{"stiffness", &model.K}, {"mass", &model.M}})
+    if (matrix->rows() != n || matrix->cols() != n)
+      keys.refuse(fmt::format("{} nodes need a {} matrix of {} rows, three a node", nodes.ids.size(), key, n),
+                  fmt::format("this one has {} x {}", matrix->rows(), matrix->cols()));
+  return model;
+}
+
+MeasurementNoise read_noise(const Value& value) {
+  const Mapping keys(value, {"frequencies", "shapes", "samples", "seed"});
+  MeasurementNoise noise;
+  if (const auto frequencies = keys.optional("frequencies")) noise.frequency = frequencies->non_negative(kRatio);
+  if (const auto shapes = keys.optional("shapes")) noise.shape = shapes->non_negative(kRatio);
+  if (const auto samples = keys.optional("samples")) noise.samples = samples->integer(2, 1000000);
+  if (const auto seed = keys.optional("seed")) noise.seed = static_cast<unsigned>(seed->integer(0, kLargestId));
+  if (noise.frequency == 0 && noise.shape == 0)
+    keys.refuse("there is no noise", "give 'frequencies' or 'shapes' a standard deviation, as '0.1 %'");
+  return noise;
+}
+
+RigidBodyData read_rigid_body(const Value& value) {
+  const Mapping keys(value, {"total", "centre", "inertia"});
+  return {keys.required("total").positive(kMass), keys.required("centre").vector3(kLength),
+          scene_sections::read_inertia(keys.required("inertia"))};
+}
+
+ModalData choose_modes(const Value& value, const ModalData& modes) {
+  if (value.is_word("all")) return modes;
+  std::vector<int> chosen;
+  if (value.is_list()) {
+    for (const Value& item : value.list()) chosen.push_back(item.integer(1, modes.mode_count()) - 1);
+    std::sort(chosen.begin(), chosen.end());
+    if (std::adjacent_find(chosen.begin(), chosen.end()) != chosen.end())
+      value.refuse("a mode is listed twice", "list each mode once");
+  } else if (value.is_mapping()) {
+    const Mapping range(value, {"above", "below"});
+    const auto limit = [&](const char* key, double otherwise) {
+      const auto frequency = range.optional(key);
+      return frequency ? 2 * std::numbers::pi * frequency->positive(kFrequency) : otherwise;
+    };
+    const double above = limit("above", 0), below = limit("below", std::numeric_limits<double>::infinity());
+    for (int j = 0; j < modes.mode_count(); ++j)
+      if (modes.omega[j] >= above && modes.omega[j] <= below) chosen.push_back(j);
+  } else {
+    chosen.resize(static_cast<std::size_t>(value.integer(1, modes.mode_count())));
+    std::iota(chosen.begin(), chosen.end(), 0);
+  }
+  if (chosen.empty()) value.refuse("no mode is chosen", fmt::format("there are {} modes", modes.mode_count()));
+  return modes.with_modes(chosen);
+}
+
+}  // namespace wishbone::identification_sections
