@@ -9,7 +9,7 @@ namespace wishbone {
 
 /// A number with `digits` significant digits and never an exponent, for columns that are read downwards; a dash
 /// when it is not known (not finite).
-std::string significant_text(double hz, int digits);
+std::string significant_text(double value, int digits);
 
 /// A share in percent: two decimals, or two significant digits below 0.01 %; a dash when it is not finite.
 std::string percent_text(double share);

@@ -128,7 +128,8 @@ std::string mode_sheet_svg(const ModalData& data, int count) {
   const double width = columns * kCellWidth, height = rows * cell_height + kLegend;
   SvgElement sheet = svg_picture(width, height, data.title.empty() ? "Mode shapes" : data.title);
   for (int j = 0; j < count; ++j) {
-    const Point corner((j % columns) * kCellWidth, (j / columns) * cell_height);
+    const int row = j / columns, column = j % columns;
+    const Point corner(column * kCellWidth, row * cell_height);
     sheet.add(svg_text(corner + Point(kMargin, kMargin + 8), mode_title(data, j),
                        {{"font-size", 13}, {"font-weight", 600}}));
     add_mode(sheet, data, frame, all, j,
