@@ -19,9 +19,10 @@ namespace {
 
 /// Kinds of nodal results (UffAnalysis).
 std::string analysis_name(int analysis) {
-  constexpr std::array<std::string_view, 8> kNames{"unknown",      "static",    "normal mode",
-                                                   "complex mode", "transient", "frequency response",
-                                                   "buckling",     "complex mode (second order)"};
+  constexpr std::array<std::string_view, 8> kNames{"unknown",     "static",
+                                                   "normal mode", "complex mode",
+                                                   "transient",   "frequency response",
+                                                   "buckling",    "complex mode (second order)"};
   const auto index = static_cast<std::size_t>(analysis);
   return analysis >= 0 && index < kNames.size() ? std::string(kNames[index]) : std::to_string(analysis);
 }
@@ -59,8 +60,8 @@ void print_functions(const UffFile& file) {
   Table table({"function", "response", "reference", "storage", "points", "first", "step"}, 4);
   for (std::size_t i = 0; i < std::min(kShown, file.functions.size()); ++i) {
     const UffFunction& f = file.functions[i];
-    table.add_row({function_name(f.type), text_of(f.response), text_of(f.reference), f.is_binary ? "58b" : "58",
-                   std::to_string(f.point_count()),
+    table.add_row({function_name(f.type), text_of(f.response), text_of(f.reference),
+                   f.is_binary ? "58b" : "58", std::to_string(f.point_count()),
                    brief(f.is_even || f.abscissa.empty() ? f.abscissa_start : f.abscissa.front()),
                    f.is_even ? brief(f.abscissa_step) : "uneven"});
   }
@@ -93,7 +94,13 @@ nlohmann::ordered_json json_of(const UffFunction& f) {
 }  // namespace
 
 void print_universal_file(const UffFile& file) {
-  if (file.header) fmt::print("model: {}\nwritten by: {}\n", as_utf8(file.header->model), as_utf8(file.header->program));
+  const auto print_origin = [](std::string_view what, const std::string& text) {
+    if (!text.empty()) fmt::print("{}: {}\n", what, as_utf8(text));
+  };
+  if (file.header) {
+    print_origin("model", file.header->model);
+    print_origin("written by", file.header->program);
+  }
   if (file.units)
     fmt::print("units: {} ({:g} per m, {:g} per N)\n", as_utf8(file.units->description), file.units->length,
                file.units->force);
