@@ -177,8 +177,8 @@ struct UffUnused {
 struct UffFile {
   std::optional<UffHeader> header;
   std::optional<UffUnits> units;
-  std::vector<UffCoordinateSystem> coordinate_systems;
-  std::vector<UffNode> nodes;  ///< each number once
+  std::vector<UffCoordinateSystem> coordinate_systems;  ///< each number once
+  std::vector<UffNode> nodes;                           ///< each number once
   std::vector<UffTraceLine> trace_lines;
   std::vector<UffElement> elements;
   std::vector<UffShape> shapes;

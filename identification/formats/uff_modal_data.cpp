@@ -48,13 +48,11 @@ std::string origin_of(const UffFile& file, const std::filesystem::path& path) {
 }
 
 void put_positions(const UffFile& file, const UffScale& scale, const std::string& where, ModalData& data) {
-  std::map<int, UffFrame> frame_of;
+  UffSystems systems(file.coordinate_systems, where);
   data.node_position.resize(3, static_cast<Eigen::Index>(file.nodes.size()));
   for (const UffNode& node : file.nodes) {
-    if (!frame_of.contains(node.definition_system))
-      frame_of[node.definition_system] = uff_frame(file.coordinate_systems, node.definition_system, where);
     data.node_position.col(data.node_count()) =
-        scale.metre * frame_of[node.definition_system].global(node.position);
+        scale.metre * systems.frame(node.definition_system).global(node.position);
     data.node_ids.push_back(node.number);
   }
 }

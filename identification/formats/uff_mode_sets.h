@@ -1,8 +1,6 @@
 #pragma once
 
-#include <complex>
 #include <string>
-#include <unordered_set>
 #include <vector>
 
 #include "identification/formats/uff_file.h"
@@ -15,7 +13,6 @@ struct UffModeSet {
   double damping_ratio = 0;
   double modal_mass = 0;               ///< as in the file, NaN where nothing is known
   std::vector<const UffShape*> parts;  ///< of different nodes
-  std::unordered_set<int> nodes;       ///< of all parts
   bool is_complex = false;             ///< a shape has imaginary parts
 };
 

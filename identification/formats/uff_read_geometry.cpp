@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "identification/formats/uff_datasets.h"
@@ -23,12 +25,17 @@ Matrix3 axes_through(const UffInput& in, const Vector3& origin, const Vector3& o
 }
 
 void add(const UffInput& in, UffContents& contents, UffCoordinateSystem system) {
-  for (const auto& other : contents.file.coordinate_systems)
-    if (other.number == system.number &&
-        !(other.axes.isApprox(system.axes, 1e-5) && other.origin.isApprox(system.origin, 1e-5)))
-      in.fail("a coordinate system is defined twice, differently", fmt::format("system {}", system.number),
-              "number each system once");
-  contents.file.coordinate_systems.push_back(std::move(system));
+  std::vector<UffCoordinateSystem>& systems = contents.file.coordinate_systems;
+  const auto [found, is_new] = contents.system_at.emplace(system.number, systems.size());
+  if (is_new) {
+    systems.push_back(std::move(system));
+    return;
+  }
+  const UffCoordinateSystem& first = systems[found->second];
+  if (!first.axes.isApprox(system.axes, 1e-5) || !first.origin.isApprox(system.origin, 1e-5) ||
+      first.type != system.type || first.reference != system.reference)
+    in.fail("a coordinate system is defined twice, differently", fmt::format("system {}", system.number),
+            "number each system once");
 }
 
 Vector3 position_from(const std::vector<double>& p) {
