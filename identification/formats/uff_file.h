@@ -167,7 +167,7 @@ struct UffFunction {
   std::size_t point_count() const { return value_count() / (is_complex ? 2 : 1); }
 };
 
-/// A dataset that was met and left out.
+/// A dataset that was met and left out; number 0: text between datasets.
 struct UffUnused {
   int dataset = 0;
   std::size_t line = 0;  ///< where it begins

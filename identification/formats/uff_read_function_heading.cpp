@@ -12,8 +12,9 @@
 namespace wishbone {
 namespace {
 
-/// I5,I10,I5,I10,1X,A10,I10,I4,1X,A10,I10,I4 in the columns of the standard; false when they do not hold that.
-bool read_freedoms_in_columns(std::string_view line, UffFunction& f) {
+/// I5,I10,I5,I10,1X,A10,I10,I4,1X,A10,I10,I4 in the columns of the standard; false when they do not hold that, or,
+/// if `exactly`, do not hold a number at the right end of each. A name that is too long shifts what follows.
+bool read_freedoms_in_columns(std::string_view line, bool exactly, UffFunction& f) {
   const std::array<std::pair<std::size_t, std::size_t>, 8> places = {
       {{0, 5}, {5, 10}, {15, 5}, {20, 10}, {41, 10}, {51, 4}, {66, 10}, {76, 4}}};
   const std::array<int*, 8> targets = {&f.type,           &f.number,
@@ -23,7 +24,7 @@ bool read_freedoms_in_columns(std::string_view line, UffFunction& f) {
   for (std::size_t k = 0; k < places.size(); ++k) {
     const std::string_view field = columns(line, places[k].first, places[k].second);
     const auto value = trimmed(field).empty() ? std::optional(0) : integer_in(field);
-    if (!value) return false;
+    if (!value || (exactly && (field.empty() || field.back() == ' '))) return false;
     *targets[k] = *value;
   }
   f.response.entity = trimmed(columns(line, 31, 10));
@@ -55,7 +56,8 @@ bool read_freedoms_as_words(std::string_view line, UffFunction& f) {
 
 void read_freedoms(UffInput& in, UffFunction& f) {
   const std::string_view line = in.require("function type, response and reference");
-  if (!read_freedoms_in_columns(line, f) && !read_freedoms_as_words(line, f))
+  if (!read_freedoms_in_columns(line, true, f) && !read_freedoms_as_words(line, f) &&
+      !read_freedoms_in_columns(line, false, f))
     in.fail_line(
         "expected function type, number, version, load case, then entity, node and direction of response and "
         "of reference",

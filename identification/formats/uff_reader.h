@@ -14,7 +14,7 @@ namespace wishbone {
 /// Takes the dialects of programs in the field: lines that end with LF, CR LF or CR, exponents with D or three
 /// digits, columns of the standard or numbers separated by blanks, numbers that touch, rows that are not full,
 /// byte counts of binary blocks that are wrong, a delimiter right behind a binary block or on a line of its own,
-/// texts that are not ASCII.
+/// texts that are not ASCII, a byte order mark in front, text between datasets (named in `unused` as dataset 0).
 ///
 /// Throws InputError whose place is "FILE:LINE (byte OFFSET)" (a binary block counts as part of the line in front)
 /// for a file that is missing, cut off or not a Universal File, counts that do not fit, numbers that are malformed,

@@ -256,6 +256,12 @@ TEST(UffModalData, ComplexModesBecomeReal) {
   }
 }
 
+TEST(UffModalData, ComplexValuesWithoutImaginaryPartsStayAsTheyAre) {
+  UffShape mode = complex_mode(0, {1, -2, 3, 4, 5, -6}, 1, kUffNormalMode);
+  mode.frequency = 5;
+  EXPECT_THAT(data_of(two_nodes_with({mode})).shapes.col(0), ElementsAre(1, -2, 3, 4, 5, -6));
+}
+
 TEST(UffModalData, ModesThatAreFarFromRealAreNamed) {
   UffShape mode = complex_mode({-5, 99}, {1, 2, 3, 4, 5, 6}, 1);
   for (std::size_t k = 1; k < 6; k += 2) mode.values[k] = 3;  // imaginary parts of node 1
