@@ -29,8 +29,8 @@ class UffKnownNodes {
     int axis;
   };
 
-  /// Throws InputError (place: `where`) when nodes of the modes have no position, or when it is not clear what axes
-  /// they have.
+  /// Throws InputError (place: `where`) when nodes of the modes have no position, or when it is not clear
+  /// what axes they have.
   UffKnownNodes(const UffFile& file, const std::vector<UffModeSet>& modes, UffShapeAxes axes,
                 const std::string& where);
 

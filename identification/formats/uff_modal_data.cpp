@@ -23,7 +23,8 @@
 namespace wishbone {
 namespace {
 
-// ---- reading ------------------------------------------------------------------------------------------------
+// ---- reading
+// ------------------------------------------------------------------------------------------------
 
 bool says_something(std::string_view text) {
   return !trimmed(text).empty() && trimmed(text) != "NONE";
@@ -92,7 +93,8 @@ void say_unused(const UffFile& file, ModalData& data) {
     data.provenance.push_back(fmt::format("not used: {} functions (dataset 58)", file.functions.size()));
 }
 
-// ---- writing ------------------------------------------------------------------------------------------------
+// ---- writing
+// ------------------------------------------------------------------------------------------------
 
 /// At most `bytes` bytes of UTF-8, on one line.
 std::string cut(std::string text, std::size_t bytes) {
@@ -105,7 +107,8 @@ std::string cut(std::string text, std::size_t bytes) {
 
 constexpr std::size_t kIdWidth = 80;
 
-/// One polyline through all pairs: the pen is lifted where a pair does not begin at the end of the one before.
+/// One polyline through all pairs: the pen is lifted where a pair does not begin at the end of the one
+/// before.
 UffTraceLine trace_of(const std::vector<std::array<int, 2>>& lines) {
   UffTraceLine trace{1, 1, "lines", {}};
   for (const auto& [a, b] : lines) {

@@ -18,8 +18,8 @@ struct UffModeSet {
 
 /// The oscillating modes of a file in ascending frequency, and what was left out on the way (appended to
 /// `provenance`): shapes that are no modes, velocities where there are displacements, datasets given twice,
-/// the conjugates of complex modes, modes of zero frequency. Datasets of equal mode, load case and
-/// frequency at different nodes are parts of one mode; at the same nodes with other values they are different modes.
+/// the conjugates of complex modes, modes of zero frequency. Datasets of equal mode, load case and frequency
+/// at different nodes are parts of one mode; at the same nodes with other values they are different modes.
 std::vector<UffModeSet> uff_mode_sets(const UffFile& file, std::vector<std::string>& provenance);
 
 }  // namespace wishbone

@@ -12,8 +12,9 @@
 namespace wishbone {
 namespace {
 
-/// I5,I10,I5,I10,1X,A10,I10,I4,1X,A10,I10,I4 in the columns of the standard; false when they do not hold that, or,
-/// if `exactly`, do not hold a number at the right end of each. A name that is too long shifts what follows.
+/// I5,I10,I5,I10,1X,A10,I10,I4,1X,A10,I10,I4 in the columns of the standard; false when they do not hold
+/// that, or, if `exactly`, do not hold a number at the right end of each. A name that is too long shifts what
+/// follows.
 bool read_freedoms_in_columns(std::string_view line, bool exactly, UffFunction& f) {
   const std::array<std::pair<std::size_t, std::size_t>, 8> places = {
       {{0, 5}, {5, 10}, {15, 5}, {20, 10}, {41, 10}, {51, 4}, {66, 10}, {76, 4}}};

@@ -113,8 +113,8 @@ std::vector<T> read_uneven_values(UffInput& in, const UffLayout& layout, UffFunc
   return sink.take();
 }
 
-/// The length of the binary block: the announced one if the delimiter follows there, else one that the count of
-/// points gives: programs announce the bytes of real values for complex ones, or count line ends.
+/// The length of the binary block: the announced one if the delimiter follows there, else one that the count
+/// of points gives: programs announce the bytes of real values for complex ones, or count line ends.
 struct BlockLength {
   std::uintmax_t bytes = 0;
   bool has_single_abscissa = false;
@@ -169,8 +169,8 @@ void read_uff_function(UffInput& in, UffContents& contents) {
   contents.file.functions.push_back(std::move(f));
 }
 
-/// I6,1A1,I6,I6,I12,I12,...: 58, b, byte order (1 little, 2 big endian), format (1 VAX, 2 IEEE 754, 3 IBM 370),
-/// lines of the heading, bytes of the block.
+/// I6,1A1,I6,I6,I12,I12,...: 58, b, byte order (1 little, 2 big endian), format (1 VAX, 2 IEEE 754, 3 IBM
+/// 370), lines of the heading, bytes of the block.
 void read_uff_binary_function(UffInput& in, UffContents& contents) {
   UffFunction f;
   f.is_binary = true;

@@ -12,7 +12,8 @@
 namespace wishbone {
 namespace {
 
-/// Columns of 18: x along the second point, y normal to the plane of the third: z = in the plane of x and the third.
+/// Columns of 18: x along the second point, y normal to the plane of the third: z = in the plane of x and the
+/// third.
 Matrix3 axes_through(const UffInput& in, const Vector3& origin, const Vector3& on_x, const Vector3& on_xz) {
   const Vector3 x = on_x - origin, towards_z = on_xz - origin;
   const Vector3 y = towards_z.cross(x);
@@ -83,7 +84,8 @@ void read_uff_coordinate_systems(UffInput& in, UffContents& contents) {
   }
 }
 
-/// I10 / 40A2, then for each system 3I10 / 40A2 / 4(3D25.16): rows of the matrix are the axes, the last the origin.
+/// I10 / 40A2, then for each system 3I10 / 40A2 / 4(3D25.16): rows of the matrix are the axes, the last the
+/// origin.
 void read_uff_coordinate_matrices(UffInput& in, UffContents& contents) {
   in.require("the part number");
   in.require("the part name");

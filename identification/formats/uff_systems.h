@@ -17,8 +17,8 @@ struct UffFrame {
   Vector3 global(const Vector3& local) const { return origin + axes * local; }
 };
 
-/// The coordinate systems of a file, followed through those that they refer to. Number 0 is global, and so is 1 where
-/// the file does not define it: finite-element programs name the global system so.
+/// The coordinate systems of a file, followed through those that they refer to. Number 0 is global, and so is
+/// 1 where the file does not define it: finite-element programs name the global system so.
 class UffSystems {
  public:
   /// `where` is the place that errors name.

@@ -53,7 +53,8 @@ TEST(UffNumbers, MessagesAreValidText) {
   EXPECT_EQ(shown(""), "");
 }
 
-// ---- lines and columns --------------------------------------------------------------------------------------
+// ---- lines and columns
+// --------------------------------------------------------------------------------------
 
 const std::string kNode =
     "    -1\n    15\n         4         0         2         8 -2.40000E+00 -9.50000E-01  1.00000E+02\n    "
@@ -167,7 +168,8 @@ TEST(UffDialects, AByteOrderMarkMayStandInFront) {
   expect_node_4(read_text("\xEF\xBB\xBF" + kNode));
 }
 
-// ---- functions ----------------------------------------------------------------------------------------------
+// ---- functions
+// ----------------------------------------------------------------------------------------------
 
 /// Head of dataset 58 or 58b for a function of `form`, its seventh record.
 std::string function_head(const std::string& first_line, const std::string& form) {
