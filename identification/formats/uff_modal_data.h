@@ -10,7 +10,7 @@ namespace wishbone {
 /// Reads the modes and the geometry of a Universal File.
 ///
 /// * Units: dataset 164, SI value = file value / factor; without it m and N are assumed. Mode shapes keep
-///   their numbers, which are multiples of nothing: only the modal mass psi^T M psi carries a unit, which
+///   their numbers, since a mode is known up to a factor; the modal mass psi^T M psi that belongs to them
 ///   becomes kg.
 /// * Axes: positions are turned and moved from definition coordinate systems, shapes turned from displacement
 ///   coordinate systems (`axes`) into global axes. Rotations of shapes of six values per node are dropped.

@@ -6,12 +6,11 @@ namespace wishbone {
 
 /// The real modes nearest to complex ones, and how near they are.
 struct RealModes {
-  VectorX omega;          ///< m, |s| [rad/s]
-  VectorX damping_ratio;  ///< m, -Re s / |s| [-]
-  MatrixX shapes;         ///< r x m, the largest component of each positive
-  VectorX
-      phase_collinearity;  ///< m, MPC: 1 when all components are in phase or opposite, 0 for a travelling wave [-]
-  VectorX imaginary_share;  ///< m, what is left behind: |Im| / |psi| after rotation [-]
+  VectorX omega;               ///< m, |s| [rad/s]
+  VectorX damping_ratio;       ///< m, -Re s / |s| [-]
+  MatrixX shapes;              ///< r x m, the largest component of each positive
+  VectorX phase_collinearity;  ///< m, MPC: 1 in phase or opposite, 0 a travelling wave [-]
+  VectorX imaginary_share;     ///< m, what is left behind: |Im| / |psi| after rotation [-]
 };
 
 /// Turns each complex mode psi (column of `shapes`, any complex scale) of eigenvalue s by the phase that
