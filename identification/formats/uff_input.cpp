@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t kBufferSize = 1 << 16;
 constexpr std::string_view kDelimiter = "    -1";
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 bool is_delimiter(std::string_view text) {
   return text.starts_with(kDelimiter) &&
@@ -28,6 +29,8 @@ UffInput::UffInput(std::istream& stream, std::string name)
   stream_.seekg(0, std::ios::end);
   size_ = static_cast<std::uintmax_t>(std::max<std::streamoff>(stream_.tellg(), 0));
   stream_.seekg(0);
+  if (fill() && std::string_view(buffer_.data(), end_).starts_with(kByteOrderMark))
+    at_ = next_offset_ = kByteOrderMark.size();
 }
 
 bool UffInput::fill() {
