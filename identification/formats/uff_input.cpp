@@ -143,6 +143,7 @@ bool UffInput::delimiter_follows(std::uintmax_t bytes) {
 }
 
 void UffInput::read_binary(char* target, std::size_t bytes) {
+  if (bytes == 0) return;
   const std::size_t buffered = std::min(bytes, end_ - at_);
   std::memcpy(target, buffer_.data() + at_, buffered);
   at_ += buffered;
