@@ -100,6 +100,9 @@ std::vector<Column> mode_columns(const Identification& identification) {
     columns.push_back({"Standard deviation<small>Hz</small>", [&](Eigen::Index i) {
                          return significant_text(at(judgement.frequency_std_hz, i), 2);
                        }});
+  if (judgement.error_estimate.size() > 0)
+    columns.push_back({"Estimated error<small>%</small>",
+                       [&](Eigen::Index i) { return percent_text(at(judgement.error_estimate, i)); }});
   if (judgement.residual.size() > 0)
     columns.push_back({"Residual bound<small>% of &lambda;</small>",
                        [&](Eigen::Index i) { return percent_text(at(judgement.residual, i)); }});
@@ -125,6 +128,8 @@ std::string mode_table(const Identification& identification) {
 /// What the columns mean that are there.
 std::string legend(const Judgement& judgement) {
   std::string text;
+  if (judgement.error_estimate.size() > 0)
+    text += "Estimated error: of the frequency, by what the measured set leaves open. ";
   if (judgement.residual.size() > 0)
     text +=
         "Residual bound: |&lambda; &minus; &lambda;<sub>true</sub>| / &lambda; that the kept modes leave "
