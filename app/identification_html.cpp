@@ -40,10 +40,13 @@ std::string support_text(const Support& support) {
 
 std::string lead(const Identification& identification) {
   const ModalData& input = identification.input;
-  std::string text = fmt::format("{} of the free structure, identified from {} at {} of {}, {}",
-                                 plural(identification.modes.mode_count(), "mode"),
-                                 plural(input.mode_count(), "mode"), plural(input.freedom_count(), "freedom"),
-                                 plural(input.node_count(), "node"), support_text(input.support));
+  const Support& found_on = identification.modes.support;
+  std::string text =
+      fmt::format("{} of the {}structure{}, identified from {} at {} of {}, {}",
+                  plural(identification.modes.mode_count(), "mode"), found_on.empty() ? "free " : "",
+                  found_on.empty() ? "" : " " + support_text(found_on), plural(input.mode_count(), "mode"),
+                  plural(input.freedom_count(), "freedom"), plural(input.node_count(), "node"),
+                  support_text(input.support));
   if (const auto& reference = identification.judgement.reference)
     text += "; compared with " + reference->name;
   return escape_markup(text) + ".";

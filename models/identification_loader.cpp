@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/document.h"
 #include "identification/formats/csv_table.h"
-#include "identification/formats/matrix_market.h"
 #include "identification/formats/modal_file.h"
 #include "identification/methods/model_modes.h"
 #include "identification/methods/support_matrices.h"
@@ -29,7 +31,8 @@ ModalData model_test(const AnalyticalModel& model, const Support& support) {
   Modes modes = model_modes(model.K, model.M, support_matrices(support, data.freedoms));
   if (support.springs.empty() && support.joints.empty())
     modes = {modes.lambda.tail(modes.count() - 6), modes.shapes.rightCols(modes.count() - 6)};
-  if (!(modes.lambda[0] > 0))
+  constexpr double kRounding = 1e-12;  // of the largest eigenvalue
+  if (!(modes.lambda[0] > kRounding * modes.lambda[modes.count() - 1]))
     throw InputError({"", "the support leaves rigid-body motion of the model free",
                       fmt::format("lowest eigenvalue {:.3g} rad2/s2", modes.lambda[0]),
                       "hold all six motions"});
@@ -54,6 +57,24 @@ void read_node_masses(const std::filesystem::path& path, ModalData& data) {
   }
 }
 
+/// Gives freedoms that joints along an axis hold rows of zeros: files need not list what does not move.
+void list_held_freedoms(ModalData& data) {
+  const auto place = [&](const Freedom& f) { return std::pair(data.node_index(f.node), f.axis); };
+  for (const Support::Joint& joint : data.support.joints)
+    for (int axis = 0; axis < 3; ++axis) {
+      const Freedom held{joint.node, axis};
+      if (std::abs(joint.direction[axis]) != 1 || data.row(held)) continue;
+      const auto next = std::find_if(data.freedoms.begin(), data.freedoms.end(),
+                                     [&](const Freedom& f) { return place(f) > place(held); });
+      const Eigen::Index above = next - data.freedoms.begin(), below = data.freedom_count() - above;
+      MatrixX shapes = MatrixX::Zero(data.freedom_count() + 1, data.mode_count());
+      shapes.topRows(above) = data.shapes.topRows(above);
+      shapes.bottomRows(below) = data.shapes.bottomRows(below);
+      data.shapes = std::move(shapes);
+      data.freedoms.insert(next, held);
+    }
+}
+
 /// One section on its way into a task.
 class Reader {
  public:
@@ -67,8 +88,8 @@ class Reader {
     if (const auto model = keys_.optional("model")) task_.model = read_model(*model, files_);
     if (const auto support = keys_.optional("support")) support_ = read_support(*support);
     task_.measured = read_modes(keys_.required("measured"), support_);
-    if (const auto mass = keys_.optional("mass")) read_mass(*mass);
     read_choices();
+    if (const auto mass = keys_.optional("mass")) read_mass(*mass);
     read_goal();
     if (const auto noise = keys_.optional("noise")) task_.noise = read_noise(*noise);
     if (const auto reference = keys_.optional("reference")) {
@@ -101,6 +122,7 @@ class Reader {
     }
     located(value.where(), [&] {
       data.validate();
+      list_held_freedoms(data);
       return 0;
     });
     const auto choice = keys.optional("modes");
@@ -109,6 +131,13 @@ class Reader {
 
   void read_mass(const Value& value) {
     const Mapping keys(value, {"file", "matrix", "total", "centre", "inertia"});
+    const bool is_distributed = keys.has("total") || keys.has("centre") || keys.has("inertia");
+    if (keys.has("file") + keys.has("matrix") + is_distributed > 1)
+      keys.refuse("the masses are given in more than one way",
+                  "write 'file', or 'matrix', or 'total', 'centre' and 'inertia'");
+    if (task_.coverage == Coverage::kGuyan || (takes_model_freedoms() && !is_distributed))
+      keys.refuse("with this expansion the masses are those of the model",
+                  "remove 'mass', and give the masses with the model");
     if (const auto file = keys.optional("file")) {
       const auto path = files_.note(*file);
       located(file->where(), [&] {
@@ -116,7 +145,7 @@ class Reader {
         return 0;
       });
     } else if (const auto matrix = keys.optional("matrix")) {
-      task_.mass = read_matrix_market(files_.note(*matrix));
+      task_.mass = read_structure_matrix(*matrix, files_);
       task_.measured.node_mass.resize(0);
     } else {
       task_.rigid_body = read_rigid_body(value);
@@ -156,11 +185,25 @@ class Reader {
     };
     if (const auto support = belongs("new_support", Goal::kHeld, "held"))
       task_.support = read_support(*support);
-    const ModalData& structure = task_.measured;
     if (const auto change = belongs("change", Goal::kChanged, "changed"))
-      task_.change = read_change(*change, structure, files_);
+      task_.change = read_change(*change, structure(), files_);
     if (task_.goal == Goal::kCorrected && !task_.model)
       keys_.refuse("a correction needs a model", "add the section 'model'");
+  }
+
+  /// Shapes are expanded to the freedoms of the model.
+  bool takes_model_freedoms() const {
+    return task_.coverage == Coverage::kSerep || task_.coverage == Coverage::kStatic;
+  }
+
+  /// Nodes and freedoms that the identified modes will have.
+  ModalData structure() const {
+    ModalData data = task_.measured;
+    if (!takes_model_freedoms()) return data;
+    data.node_ids = task_.model->node_ids;
+    data.node_position = task_.model->node_position;
+    data.freedoms = task_.model->freedoms();
+    return data;
   }
 
   /// A model that only served to compute modes need not be carried along.
