@@ -133,7 +133,7 @@ std::string legend(const Judgement& judgement) {
   if (judgement.frequency_std_hz.size() > 0)
     text += "Standard deviation: under the given measurement noise. ";
   if (judgement.reference)
-    text += "Reference mode: that of the largest MAC, at least 0.5; MAC below 0.9 is red. ";
+    text += "Reference mode: that of the largest MAC, at least 0.4; MAC below 0.9 is red. ";
   return text.empty() ? "" : "<p class=\"caption\">" + text + "</p>";
 }
 

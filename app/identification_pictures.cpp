@@ -22,7 +22,9 @@ void add_mac(std::vector<Picture>& pictures, const std::string& name, const Matr
 }  // namespace
 
 std::vector<Picture> identification_pictures(const Identification& identification) {
-  const auto& [title, input, modes, judgement] = identification;
+  const ModalData& input = identification.input;
+  const ModalData& modes = identification.modes;
+  const Judgement& judgement = identification.judgement;
   std::vector<Picture> pictures;
   if (modes.mode_count() > 0) pictures.push_back({"modes.svg", mode_sheet_svg(modes, kSheetModes)});
   if (input.mode_count() > 0) pictures.push_back({"input_modes.svg", mode_sheet_svg(input, kSheetModes)});

@@ -41,13 +41,13 @@ Table mode_table(const Identification& id) {
 
 nlohmann::ordered_json json_list(const VectorX& values) {
   auto list = nlohmann::ordered_json::array();
-  for (const double value : values) list.push_back(json_number(value));
+  for (const double value : values) list.push_back(nlohmann::ordered_json(json_number(value)));
   return list;
 }
 
 nlohmann::ordered_json json_rows(const MatrixX& values) {
   auto rows = nlohmann::ordered_json::array();
-  for (Eigen::Index i = 0; i < values.rows(); ++i) rows.push_back(json_list(values.row(i)));
+  for (Eigen::Index i = 0; i < values.rows(); ++i) rows.push_back(json_list(values.row(i).transpose()));
   return rows;
 }
 
@@ -60,9 +60,11 @@ std::string text_of(const Identification& id) {
   if (!j.warnings.empty()) text += "\n";
   text += mode_table(id).text() + "\n";
   for (const std::string& note : j.notes) text += note + "\n";
-  text += fmt::format("mass-orthogonality error: measured {:.2g}, identified {:.2g}; product with rigid motion {:.2g}\n",
-                      j.input_orthogonality_error, j.orthogonality_error, j.rigid_body_error);
-  for (const auto& [name, value] : j.condition_numbers) text += fmt::format("condition number of {}: {:.3g}\n", name, value);
+  text += fmt::format(
+      "mass-orthogonality error: measured {:.2g}, identified {:.2g}; product with rigid motion {:.2g}\n",
+      j.input_orthogonality_error, j.orthogonality_error, j.rigid_body_error);
+  for (const auto& [name, value] : j.condition_numbers)
+    text += fmt::format("condition number of {}: {:.3g}\n", name, value);
   text += fmt::format("lost modes: {}\n", j.lost_modes);
   return text;
 }

@@ -51,7 +51,9 @@ void write_outputs(const Options& options, const Identification& result) {
   if (options.html) write_text_file(*options.html, identification_html(result));
   if (options.pictures) write_pictures(*options.pictures, result);
   if (!options.matrices) return;
-  const auto symmetric = [](const MatrixX& A) -> SparseMatrix { return MatrixX((A + A.transpose()) / 2).sparseView(); };
+  const auto symmetric = [](const MatrixX& A) -> SparseMatrix {
+    return MatrixX((A + A.transpose()) / 2).sparseView();
+  };
   write_matrix_market(mass_file(*options.matrices), symmetric(result.corrected->M), true);
   write_matrix_market(stiffness_file(*options.matrices), symmetric(result.corrected->K), true);
 }
@@ -75,20 +77,23 @@ ExitCode run(const Options& options) {
 
 void add_identify(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("identify", "Find the modes of a structure from modes that were measured on a support");
+  CLI::App* command = app.add_subcommand(
+      "identify", "Find the modes of a structure from modes that were measured on a support");
   command->add_option("IDENT", options->input, "file with a section 'identification' (YAML)")->required();
   command->add_option("-o,--output", options->output, "mode file to write (HDF5)")->required();
   command->add_option("--set", options->set, "replace a parameter of the file: name=value (several allowed)");
-  command->add_option("--also", options->also, "write the modes in another format too: .unv, .uff, .csv, .h5");
+  command->add_option("--also", options->also,
+                      "write the modes in another format too: .unv, .uff, .csv, .h5");
   command->add_option("--html", options->html, "write a page with tables and pictures to this file");
-  command->add_option("--pictures", options->pictures, "write mode shapes and MAC matrices as SVG into this folder");
+  command->add_option("--pictures", options->pictures,
+                      "write mode shapes and MAC matrices as SVG into this folder");
   command->add_option("--matrices", options->matrices,
                       "write a corrected model to PREFIX_M.mtx and PREFIX_K.mtx (MatrixMarket)");
   command->add_flag("--json", options->json, "print JSON");
   command->footer(
       "What the file may say: docs/identification.md.\n\n"
-      "Example:\n  wishbone identify models/identification/chassis_on_springs.yaml -o chassis.h5 --html chassis.html");
+      "Example:\n  wishbone identify models/identification/chassis_on_springs.yaml -o chassis.h5 --html "
+      "chassis.html");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

@@ -94,8 +94,13 @@ nlohmann::ordered_json json_of(const UffFunction& f) {
 }  // namespace
 
 void print_universal_file(const UffFile& file) {
-  if (file.header)
-    fmt::print("model: {}\nwritten by: {}\n", as_utf8(file.header->model), as_utf8(file.header->program));
+  const auto print_origin = [](std::string_view what, const std::string& text) {
+    if (!text.empty()) fmt::print("{}: {}\n", what, as_utf8(text));
+  };
+  if (file.header) {
+    print_origin("model", file.header->model);
+    print_origin("written by", file.header->program);
+  }
   if (file.units)
     fmt::print("units: {} ({:g} per m, {:g} per N)\n", as_utf8(file.units->description), file.units->length,
                file.units->force);

@@ -31,7 +31,8 @@ ModalData model_test(const AnalyticalModel& model, const Support& support) {
     modes = {modes.lambda.tail(modes.count() - 6), modes.shapes.rightCols(modes.count() - 6)};
   if (!(modes.lambda[0] > 0))
     throw InputError({"", "the support leaves rigid-body motion of the model free",
-                      fmt::format("lowest eigenvalue {:.3g} rad2/s2", modes.lambda[0]), "hold all six motions"});
+                      fmt::format("lowest eigenvalue {:.3g} rad2/s2", modes.lambda[0]),
+                      "hold all six motions"});
   data.omega = modes.lambda.cwiseSqrt();
   data.shapes = modes.shapes;
   data.damping_ratio = VectorX::Zero(modes.count());
@@ -57,8 +58,8 @@ void read_node_masses(const std::filesystem::path& path, ModalData& data) {
 class Reader {
  public:
   Reader(const Value& section, const AnalyticalModel* own_model)
-      : keys_(section, {"measured", "support", "mass", "find", "new_support", "change", "model", "expansion", "space",
-                        "keep", "noise", "reference"}) {
+      : keys_(section, {"measured", "support", "mass", "find", "new_support", "change", "model", "expansion",
+                        "space", "keep", "noise", "reference"}) {
     if (own_model) task_.model = *own_model;
   }
 
@@ -93,7 +94,8 @@ class Reader {
       if (support) data.support = *support;
     } else {
       const Value from = keys.required("from");
-      if (!from.is_word("model")) from.refuse("modes can be computed from the model only", "write 'from: model'");
+      if (!from.is_word("model"))
+        from.refuse("modes can be computed from the model only", "write 'from: model'");
       if (!task_.model) from.refuse("there is no model to take modes from", "add the section 'model'");
       data = located(from.where(), [&] { return model_test(*task_.model, support.value_or(Support{})); });
     }
@@ -123,13 +125,16 @@ class Reader {
 
   void read_choices() {
     if (const auto space = keys_.optional("space"))
-      task_.space = space->choice<Space>({{"modal", Space::kModal}, {"physical", Space::kPhysical}}, "the spaces");
-    if (const auto keep = keys_.optional("keep")) task_.keep = keep->integer(1, std::numeric_limits<int>::max());
+      task_.space =
+          space->choice<Space>({{"modal", Space::kModal}, {"physical", Space::kPhysical}}, "the spaces");
+    if (const auto keep = keys_.optional("keep"))
+      task_.keep = keep->integer(1, std::numeric_limits<int>::max());
     if (const auto expansion = keys_.optional("expansion")) {
-      task_.coverage = expansion->choice<Coverage>(
-          {{"none", Coverage::kAsMeasured}, {"serep", Coverage::kSerep}, {"static", Coverage::kStatic},
-           {"guyan", Coverage::kGuyan}},
-          "the kinds of expansion");
+      task_.coverage = expansion->choice<Coverage>({{"none", Coverage::kAsMeasured},
+                                                    {"serep", Coverage::kSerep},
+                                                    {"static", Coverage::kStatic},
+                                                    {"guyan", Coverage::kGuyan}},
+                                                   "the kinds of expansion");
       if (task_.coverage != Coverage::kAsMeasured && !task_.model)
         expansion->refuse("an expansion needs a model", "add the section 'model'");
     }
@@ -149,11 +154,13 @@ class Reader {
       if (!value && task_.goal == goal) keys_.required(key);
       return value;
     };
-    if (const auto support = belongs("new_support", Goal::kHeld, "held")) task_.support = read_support(*support);
+    if (const auto support = belongs("new_support", Goal::kHeld, "held"))
+      task_.support = read_support(*support);
     const ModalData& structure = task_.measured;
     if (const auto change = belongs("change", Goal::kChanged, "changed"))
       task_.change = read_change(*change, structure, files_);
-    if (task_.goal == Goal::kCorrected && !task_.model) keys_.refuse("a correction needs a model", "add the section 'model'");
+    if (task_.goal == Goal::kCorrected && !task_.model)
+      keys_.refuse("a correction needs a model", "add the section 'model'");
   }
 
   /// A model that only served to compute modes need not be carried along.

@@ -7,10 +7,10 @@
 #include <numbers>
 #include <numeric>
 
-#include "identification/formats/csv_modal_data.h"
-#include "identification/formats/matrix_market.h"
 #include "identification/elements/element_edges.h"
 #include "identification/elements/hexahedral_mesh.h"
+#include "identification/formats/csv_modal_data.h"
+#include "identification/formats/matrix_market.h"
 #include "models/scene_sections.h"
 
 namespace wishbone::identification_sections {
@@ -92,7 +92,8 @@ StructureChange::Spring read_connection(const Value& item, const ModalData& stru
                           structure.node_position.col(structure.node_index(spring.nodes[0]));
     const auto direction = keys.optional("direction");
     if (!direction && !(along.norm() > 0))
-      nodes.refuse("the two nodes are in one place, so that a direction must be given", "add 'direction: [x, y, z]'");
+      nodes.refuse("the two nodes are in one place, so that a direction must be given",
+                   "add 'direction: [x, y, z]'");
     spring.direction = direction ? direction->direction() : along.normalized();
     return 0;
   });
@@ -139,13 +140,14 @@ StructureChange read_change(const Value& value, const ModalData& structure, File
   if (const auto springs = keys.optional("springs"))
     for (const Value& item : springs->list()) change.springs.push_back(read_connection(item, structure));
   if (const auto matrix = keys.optional("mass_matrix")) change.dM = read_matrix_market(files.note(*matrix));
-  if (const auto matrix = keys.optional("stiffness_matrix")) change.dK = read_matrix_market(files.note(*matrix));
+  if (const auto matrix = keys.optional("stiffness_matrix"))
+    change.dK = read_matrix_market(files.note(*matrix));
   if (change.empty()) keys.refuse("there is no change", "name masses, springs or matrices");
   return change;
 }
 
-AnalyticalModel block_model(const Vector3& size, const Eigen::Vector3i& elements, double young, double poisson,
-                            double density) {
+AnalyticalModel block_model(const Vector3& size, const Eigen::Vector3i& elements, double young,
+                            double poisson, double density) {
   const HexahedralMesh mesh = make_block(size, elements);
   const IsotropicMaterial material{young, poisson, density};
   AnalyticalModel model;
@@ -175,10 +177,12 @@ AnalyticalModel read_model(const Value& value, Files& files) {
     model.node_mass = nodes.mass;
     model.M = lumped_mass_matrix(nodes.mass);
   } else {
-    keys.refuse("the masses of the model are not known", "add 'mass: M.mtx', or a column 'mass' to the nodes");
+    keys.refuse("the masses of the model are not known",
+                "add 'mass: M.mtx', or a column 'mass' to the nodes");
   }
   const Eigen::Index n = model.node_position.size();
-  for (const auto& [key, matrix] : {std::pair<const char*, const SparseMatrix*>{"stiffness", &model.K}, {"mass", &model.M}})
+  for (const auto& [key, matrix] :
+       {std::pair<const char*, const SparseMatrix*>{"stiffness", &model.K}, {"mass", &model.M}})
     if (matrix->rows() != n || matrix->cols() != n)
       keys.refuse(fmt::format("{} nodes need a {} matrix of {} rows, three a node", nodes.ids.size(), key, n),
                   fmt::format("this one has {} x {}", matrix->rows(), matrix->cols()));
@@ -188,10 +192,12 @@ AnalyticalModel read_model(const Value& value, Files& files) {
 MeasurementNoise read_noise(const Value& value) {
   const Mapping keys(value, {"frequencies", "shapes", "samples", "seed"});
   MeasurementNoise noise;
-  if (const auto frequencies = keys.optional("frequencies")) noise.frequency = frequencies->non_negative(kRatio);
+  if (const auto frequencies = keys.optional("frequencies"))
+    noise.frequency = frequencies->non_negative(kRatio);
   if (const auto shapes = keys.optional("shapes")) noise.shape = shapes->non_negative(kRatio);
   if (const auto samples = keys.optional("samples")) noise.samples = samples->integer(2, 1000000);
-  if (const auto seed = keys.optional("seed")) noise.seed = static_cast<unsigned>(seed->integer(0, kLargestId));
+  if (const auto seed = keys.optional("seed"))
+    noise.seed = static_cast<unsigned>(seed->integer(0, kLargestId));
   if (noise.frequency == 0 && noise.shape == 0)
     keys.refuse("there is no noise", "give 'frequencies' or 'shapes' a standard deviation, as '0.1 %'");
   return noise;
@@ -224,7 +230,8 @@ ModalData choose_modes(const Value& value, const ModalData& modes) {
     chosen.resize(static_cast<std::size_t>(value.integer(1, modes.mode_count())));
     std::iota(chosen.begin(), chosen.end(), 0);
   }
-  if (chosen.empty()) value.refuse("no mode is chosen", fmt::format("there are {} modes", modes.mode_count()));
+  if (chosen.empty())
+    value.refuse("no mode is chosen", fmt::format("there are {} modes", modes.mode_count()));
   return modes.with_modes(chosen);
 }
 

@@ -36,7 +36,7 @@ RigidBodyData read_rigid_body(const Value& value);
 ModalData choose_modes(const Value& value, const ModalData& modes);
 
 /// A block of hexahedra and its material as a model; shared with the flexible bodies of scenes.
-AnalyticalModel block_model(const Vector3& size, const Eigen::Vector3i& elements, double young, double poisson,
-                            double density);
+AnalyticalModel block_model(const Vector3& size, const Eigen::Vector3i& elements, double young,
+                            double poisson, double density);
 
 }  // namespace wishbone::identification_sections

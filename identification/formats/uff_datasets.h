@@ -12,7 +12,8 @@ namespace wishbone {
 /// The contents so far, with what is needed to put more to it.
 struct UffContents {
   UffFile file;
-  std::unordered_map<int, std::size_t> node_at;  ///< number -> index in file.nodes
+  std::unordered_map<int, std::size_t> node_at;    ///< number -> index in file.nodes
+  std::unordered_map<int, std::size_t> system_at;  ///< number -> index in file.coordinate_systems
 };
 
 void read_uff_header(UffInput& in, UffContents& contents);               // 151

@@ -21,7 +21,8 @@ void add_star(Edges& edges, Nodes nodes) {
   for (std::size_t k = 1; k < nodes.size(); ++k) add_chain(edges, std::array{nodes[0], nodes[k]}, false);
 }
 
-/// A base loop, middle nodes over its corners, a top loop (or one apex). Corners are `stride` apart in the loops.
+/// A base loop, middle nodes over its corners, a top loop (or one apex). Corners are `stride` apart in the
+/// loops.
 struct Solid {
   std::size_t corners;
   std::size_t stride;     ///< 1 linear, 2 parabolic

@@ -38,7 +38,8 @@ Fields columns_of(std::string_view line, std::initializer_list<int> widths) {
   return fields;
 }
 
-/// Numbers stand at the right end of their columns, so that a line that keeps other columns shows by blanks there.
+/// Numbers stand at the right end of their columns, so that a line that keeps other columns shows by blanks
+/// there.
 bool right_justified(const Fields& fields) {
   return std::all_of(fields.begin(), fields.end(), [](std::string_view field) {
     return trimmed(field).empty() || (field.back() != ' ' && field.back() != '\t');

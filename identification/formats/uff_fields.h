@@ -9,14 +9,14 @@
 
 namespace wishbone {
 
-/// The number fields of a line, in order; empty ones are blank. `widths` are the columns of the standard's format,
-/// repeated as often as the line is long; `expected` is how many numbers the record has, 0 when any number of them
-/// may stand there.
+/// The number fields of a line, in order; empty ones are blank. `widths` are the columns of the standard's
+/// format, repeated as often as the line is long; `expected` is how many numbers the record has, 0 when any
+/// number of them may stand there.
 ///
-/// Programs keep the columns of the standard or separate by blanks, some in other columns. So a line counts as
-/// separated by blanks when that gives the expected count of numbers; else as in the columns of the standard, where
-/// numbers may touch and fields be blank; else numbers come apart where one ends and another begins
-/// ("1.0E+00-2.0E+00"). Throws InputError at the first word that is no number.
+/// Programs keep the columns of the standard or separate by blanks, some in other columns. So a line counts
+/// as separated by blanks when that gives the expected count of numbers; else as in the columns of the
+/// standard, where numbers may touch and fields be blank; else numbers come apart where one ends and another
+/// begins ("1.0E+00-2.0E+00"). Throws InputError at the first word that is no number.
 std::vector<std::string_view> number_fields(const UffInput& in, std::initializer_list<int> widths,
                                             std::size_t expected = 0);
 
@@ -25,7 +25,8 @@ std::vector<std::string_view> words_of(std::string_view text);
 /// The part of a line in columns [begin, begin + width), shorter or empty when the line ends before.
 std::string_view columns(std::string_view line, std::size_t begin, std::size_t width);
 
-/// A field of the current line of `in` as a number, blank as zero. Throws InputError, saying that it is `what`.
+/// A field of the current line of `in` as a number, blank as zero. Throws InputError, saying that it is
+/// `what`.
 int integer_field(const UffInput& in, std::string_view field, std::string_view what);
 double real_field(const UffInput& in, std::string_view field, std::string_view what);
 

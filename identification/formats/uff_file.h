@@ -10,8 +10,8 @@
 
 #include "core/spatial.h"
 
-/// What a Universal File (UFF, UNV) holds, as the file says it: its own units, its own axes, its own numbers. Names and
-/// record layouts are those of the SDRC universal dataset specifications
+/// What a Universal File (UFF, UNV) holds, as the file says it: its own units, its own axes, its own numbers.
+/// Names and record layouts are those of the SDRC universal dataset specifications
 /// (https://www.ceas3.uc.edu/sdrluff/). Texts are the bytes of the file without trailing blanks, in whatever
 /// encoding it uses.
 namespace wishbone {
@@ -89,7 +89,8 @@ enum UffAnalysis {
   kUffComplexModeSecondOrder = 7,
 };
 
-/// Dataset 55, or 2414 at nodes: some numbers at each node. Numbers that the kind of analysis does not know are zero.
+/// Dataset 55, or 2414 at nodes: some numbers at each node. Numbers that the kind of analysis does not know
+/// are zero.
 struct UffShape {
   int dataset = 55;                ///< 55 or 2414
   std::size_t line = 0;            ///< of the file, where the dataset begins
@@ -167,7 +168,7 @@ struct UffFunction {
   std::size_t point_count() const { return value_count() / (is_complex ? 2 : 1); }
 };
 
-/// A dataset that was met and left out.
+/// A dataset that was met and left out; number 0: text between datasets.
 struct UffUnused {
   int dataset = 0;
   std::size_t line = 0;  ///< where it begins
@@ -177,8 +178,8 @@ struct UffUnused {
 struct UffFile {
   std::optional<UffHeader> header;
   std::optional<UffUnits> units;
-  std::vector<UffCoordinateSystem> coordinate_systems;
-  std::vector<UffNode> nodes;  ///< each number once
+  std::vector<UffCoordinateSystem> coordinate_systems;  ///< each number once
+  std::vector<UffNode> nodes;                           ///< each number once
   std::vector<UffTraceLine> trace_lines;
   std::vector<UffElement> elements;
   std::vector<UffShape> shapes;

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t kBufferSize = 1 << 16;
 constexpr std::string_view kDelimiter = "    -1";
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 bool is_delimiter(std::string_view text) {
   return text.starts_with(kDelimiter) &&
@@ -28,6 +29,8 @@ UffInput::UffInput(std::istream& stream, std::string name)
   stream_.seekg(0, std::ios::end);
   size_ = static_cast<std::uintmax_t>(std::max<std::streamoff>(stream_.tellg(), 0));
   stream_.seekg(0);
+  if (fill() && std::string_view(buffer_.data(), end_).starts_with(kByteOrderMark))
+    at_ = next_offset_ = kByteOrderMark.size();
 }
 
 bool UffInput::fill() {
@@ -140,6 +143,7 @@ bool UffInput::delimiter_follows(std::uintmax_t bytes) {
 }
 
 void UffInput::read_binary(char* target, std::size_t bytes) {
+  if (bytes == 0) return;
   const std::size_t buffered = std::min(bytes, end_ - at_);
   std::memcpy(target, buffer_.data() + at_, buffered);
   at_ += buffered;

@@ -9,8 +9,8 @@
 
 namespace wishbone {
 
-/// The lines and binary blocks of a Universal File, read through a small buffer: memory does not grow with the
-/// file. Lines end with LF, CR LF or CR. Knows the place in the file, so that every error names it.
+/// The lines and binary blocks of a Universal File, read through a small buffer: memory does not grow with
+/// the file. Lines end with LF, CR LF or CR. Knows the place in the file, so that every error names it.
 class UffInput {
  public:
   /// Of a stream at its begin that can be repositioned; errors call it `name`.
@@ -26,13 +26,15 @@ class UffInput {
   std::size_t line() const { return line_; }  ///< from 1
   bool at_delimiter() const;                  ///< "    -1" and nothing but blanks
 
-  /// Goes to the next line of the current dataset; false at its delimiter. Throws InputError at the end of the file.
+  /// Goes to the next line of the current dataset; false at its delimiter. Throws InputError at the end of
+  /// the file.
   bool advance_in_dataset();
   /// The same for a line that must be there: `what` it is, for the message.
   std::string_view require(std::string_view what);
   /// The same for a line that is not blank.
   std::string_view require_filled(std::string_view what);
-  /// The same for the last line before a binary block: where lines end with CR alone, an LF behind it belongs to the block.
+  /// The same for the last line before a binary block: where lines end with CR alone, an LF behind it belongs
+  /// to the block.
   std::string_view require_before_binary(std::string_view what);
   /// Goes to the delimiter; throws InputError if anything but blank lines comes before it.
   void end_dataset();
@@ -43,7 +45,8 @@ class UffInput {
 
   /// Bytes of the file behind the current line.
   std::uintmax_t bytes_left() const { return size_ - next_offset_; }
-  /// Whether the delimiter follows `bytes` after the end of the current line, with or without a new line before it.
+  /// Whether the delimiter follows `bytes` after the end of the current line, with or without a new line
+  /// before it.
   bool delimiter_follows(std::uintmax_t bytes);
   /// The next `bytes` bytes, which must be there, straight into `target`.
   void read_binary(char* target, std::size_t bytes);

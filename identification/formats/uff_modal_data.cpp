@@ -23,7 +23,8 @@
 namespace wishbone {
 namespace {
 
-// ---- reading ------------------------------------------------------------------------------------------------
+// ---- reading
+// ------------------------------------------------------------------------------------------------
 
 bool says_something(std::string_view text) {
   return !trimmed(text).empty() && trimmed(text) != "NONE";
@@ -48,13 +49,11 @@ std::string origin_of(const UffFile& file, const std::filesystem::path& path) {
 }
 
 void put_positions(const UffFile& file, const UffScale& scale, const std::string& where, ModalData& data) {
-  std::map<int, UffFrame> frame_of;
+  UffSystems systems(file.coordinate_systems, where);
   data.node_position.resize(3, static_cast<Eigen::Index>(file.nodes.size()));
   for (const UffNode& node : file.nodes) {
-    if (!frame_of.contains(node.definition_system))
-      frame_of[node.definition_system] = uff_frame(file.coordinate_systems, node.definition_system, where);
     data.node_position.col(data.node_count()) =
-        scale.metre * frame_of[node.definition_system].global(node.position);
+        scale.metre * systems.frame(node.definition_system).global(node.position);
     data.node_ids.push_back(node.number);
   }
 }
@@ -94,7 +93,8 @@ void say_unused(const UffFile& file, ModalData& data) {
     data.provenance.push_back(fmt::format("not used: {} functions (dataset 58)", file.functions.size()));
 }
 
-// ---- writing ------------------------------------------------------------------------------------------------
+// ---- writing
+// ------------------------------------------------------------------------------------------------
 
 /// At most `bytes` bytes of UTF-8, on one line.
 std::string cut(std::string text, std::size_t bytes) {
@@ -107,7 +107,8 @@ std::string cut(std::string text, std::size_t bytes) {
 
 constexpr std::size_t kIdWidth = 80;
 
-/// One polyline through all pairs: the pen is lifted where a pair does not begin at the end of the one before.
+/// One polyline through all pairs: the pen is lifted where a pair does not begin at the end of the one
+/// before.
 UffTraceLine trace_of(const std::vector<std::array<int, 2>>& lines) {
   UffTraceLine trace{1, 1, "lines", {}};
   for (const auto& [a, b] : lines) {

@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <map>
 #include <numbers>
+#include <tuple>
+#include <unordered_set>
 #include <utility>
 
 namespace wishbone {
@@ -82,39 +86,47 @@ bool has_imaginary_part(const UffShape& shape) {
   return false;
 }
 
-void add_part(UffModeSet& mode, const UffShape& shape) {
-  mode.parts.push_back(&shape);
-  mode.nodes.insert(shape.nodes.begin(), shape.nodes.end());
-  mode.is_complex = mode.is_complex || has_imaginary_part(shape);
+/// Analysis, load case, number, frequency and eigenvalue: equal for the parts of one mode.
+using Key = std::tuple<int, int, int, double, double, double>;
+
+Key key_of(const UffShape& s) {
+  return {s.analysis, s.load_case, s.number, s.frequency, s.eigenvalue.real(), s.eigenvalue.imag()};
 }
 
-bool belong_together(const UffShape& a, const UffShape& b) {
-  return a.analysis == b.analysis && a.load_case == b.load_case && a.number == b.number &&
-         a.frequency == b.frequency && a.eigenvalue == b.eigenvalue;
+bool repeats(const UffModeSet& mode, const UffShape& shape) {
+  return std::any_of(mode.parts.begin(), mode.parts.end(), [&](const UffShape* part) {
+    return part->nodes == shape.nodes && part->values == shape.values;
+  });
+}
+
+/// Whether the shape has none of the nodes that the mode has.
+bool completes(const UffModeSet& mode, const UffShape& shape) {
+  const std::unordered_set<int> nodes(shape.nodes.begin(), shape.nodes.end());
+  return std::none_of(mode.parts.begin(), mode.parts.end(), [&](const UffShape* part) {
+    return std::any_of(part->nodes.begin(), part->nodes.end(),
+                       [&](int node) { return nodes.contains(node); });
+  });
 }
 
 std::vector<UffModeSet> grouped(const std::vector<const UffShape*>& shapes,
                                 std::vector<std::string>& provenance) {
   std::vector<UffModeSet> modes;
+  std::map<Key, std::vector<std::size_t>> modes_of;
   int repeated = 0;
   for (const UffShape* shape : shapes) {
-    const auto repeats = [&](const UffShape* part) {
-      return belong_together(*part, *shape) && part->nodes == shape->nodes && part->values == shape->values;
-    };
-    const auto completes = [&](const UffModeSet& mode) {
-      return belong_together(*mode.parts.front(), *shape) &&
-             std::none_of(shape->nodes.begin(), shape->nodes.end(),
-                          [&](int node) { return mode.nodes.contains(node); });
-    };
-    if (std::any_of(modes.begin(), modes.end(), [&](const auto& mode) {
-          return std::any_of(mode.parts.begin(), mode.parts.end(), repeats);
-        })) {
+    std::vector<std::size_t>& alike = modes_of[key_of(*shape)];
+    if (std::any_of(alike.begin(), alike.end(), [&](std::size_t j) { return repeats(modes[j], *shape); })) {
       ++repeated;
       continue;
     }
-    auto mode = std::find_if(modes.begin(), modes.end(), completes);
-    if (mode == modes.end()) mode = modes.insert(modes.end(), mode_of(*shape));
-    add_part(*mode, *shape);
+    auto mode =
+        std::find_if(alike.begin(), alike.end(), [&](std::size_t j) { return completes(modes[j], *shape); });
+    if (mode == alike.end()) {
+      modes.push_back(mode_of(*shape));
+      mode = alike.insert(alike.end(), modes.size() - 1);
+    }
+    modes[*mode].parts.push_back(shape);
+    modes[*mode].is_complex = modes[*mode].is_complex || has_imaginary_part(*shape);
   }
   if (repeated > 0)
     provenance.push_back(fmt::format("left out {} datasets that repeat another one", repeated));
@@ -123,22 +135,19 @@ std::vector<UffModeSet> grouped(const std::vector<const UffShape*>& shapes,
 
 /// Complex modes come in pairs; the one with Im s > 0 stands for both. Without oscillation there is no mode.
 void leave_out_conjugates(std::vector<UffModeSet>& modes, std::vector<std::string>& provenance) {
-  const std::size_t before = modes.size();
-  const auto is_conjugate_of = [](const UffShape& a, const UffShape& b) {
-    return is_complex_mode(b) &&
-           std::abs(std::conj(a.eigenvalue) - b.eigenvalue) <= 1e-5 * std::abs(b.eigenvalue);
-  };
-  const std::vector<UffModeSet> all = modes;
-  std::erase_if(modes, [&](const UffModeSet& mode) {
-    const UffShape& shape = *mode.parts.front();
-    if (!is_complex_mode(shape) || shape.eigenvalue.imag() > 0) return false;
-    return shape.eigenvalue.imag() == 0 || std::any_of(all.begin(), all.end(), [&](const UffModeSet& other) {
-             return is_conjugate_of(shape, *other.parts.front());
+  std::vector<std::complex<double>> upper;
+  for (const UffModeSet& mode : modes)
+    if (is_complex_mode(*mode.parts.front()) && mode.parts.front()->eigenvalue.imag() > 0)
+      upper.push_back(mode.parts.front()->eigenvalue);
+  const std::size_t count = std::erase_if(modes, [&](const UffModeSet& mode) {
+    const std::complex<double> s = mode.parts.front()->eigenvalue;
+    if (!is_complex_mode(*mode.parts.front()) || s.imag() > 0) return false;
+    return s.imag() == 0 || std::any_of(upper.begin(), upper.end(), [&](std::complex<double> other) {
+             return std::abs(std::conj(other) - s) <= 1e-5 * std::abs(s);
            });
   });
-  if (modes.size() < before)
-    provenance.push_back(
-        fmt::format("left out {} complex modes: conjugates, or without oscillation", before - modes.size()));
+  if (count > 0)
+    provenance.push_back(fmt::format("left out {} complex modes: conjugates, or without oscillation", count));
 }
 
 void leave_out_zero_frequencies(std::vector<UffModeSet>& modes, std::vector<std::string>& provenance) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <complex>
 #include <string>
 #include <vector>
 
@@ -11,8 +10,8 @@ namespace wishbone {
 
 /// Axes that the components of nodal shapes refer to.
 enum class UffShapeAxes {
-  /// Dataset 55: the displacement coordinate system of each node, as test programs write measured directions; dataset
-  /// 2414: global, as its specification says and finite-element programs write it.
+  /// Dataset 55: the displacement coordinate system of each node, as test programs write measured directions;
+  /// dataset 2414: global, as its specification says and finite-element programs write it.
   kByDataset,
   kDisplacementSystems,
   kGlobal,
@@ -28,8 +27,8 @@ struct UffModes {
   std::vector<std::string> provenance;
 };
 
-/// Collects the modes of a file. `where` is the place that errors name. Throws InputError, saying what the file does
-/// hold, when it has no modes, or modes of nodes that have no position.
+/// Collects the modes of a file. `where` is the place that errors name. Throws InputError, saying what the
+/// file does hold, when it has no modes, or modes of nodes that have no position.
 UffModes collect_uff_modes(const UffFile& file, UffShapeAxes axes, const std::string& where);
 
 /// "10 nodes, 8 elements, 1 nodal result": for messages.

@@ -18,8 +18,8 @@ class UffOutput {
 
   void begin_dataset(std::string_view number);
   void end_dataset();
-  /// One line of text without trailing blanks, "NONE" for none: identification lines must not be blank. Throws
-  /// InputError if it holds a line break.
+  /// One line of text without trailing blanks, "NONE" for none: identification lines must not be blank.
+  /// Throws InputError if it holds a line break.
   void text(std::string_view line);
   void line(std::string_view formatted);
   /// Rows of `per_line` numbers in "%{width}d".

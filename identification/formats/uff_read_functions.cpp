@@ -12,140 +12,17 @@
 
 #include "identification/formats/uff_datasets.h"
 #include "identification/formats/uff_fields.h"
+#include "identification/formats/uff_function_layout.h"
 #include "identification/formats/uff_text.h"
 
 namespace wishbone {
 namespace {
 
-/// How the numbers of a function follow each other.
-struct Layout {
-  std::size_t points = 0;
-  bool is_even = true;
-  bool is_complex = false;
-  bool is_double = false;
-
-  std::size_t ordinates_per_point() const { return is_complex ? 2 : 1; }
-  std::size_t numbers_per_point() const { return ordinates_per_point() + (is_even ? 0 : 1); }
-};
-
-// ---- records 1 to 11: the heading ---------------------------------------------------------------------------
-
-/// I5,I10,I5,I10,1X,A10,I10,I4,1X,A10,I10,I4 in the columns of the standard; false when they do not hold that.
-bool read_freedoms_in_columns(std::string_view line, UffFunction& f) {
-  const std::array<std::pair<std::size_t, std::size_t>, 8> places = {
-      {{0, 5}, {5, 10}, {15, 5}, {20, 10}, {41, 10}, {51, 4}, {66, 10}, {76, 4}}};
-  const std::array<int*, 8> targets = {&f.type,           &f.number,
-                                       &f.version,        &f.load_case,
-                                       &f.response.node,  &f.response.direction,
-                                       &f.reference.node, &f.reference.direction};
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    const std::string_view field = columns(line, places[k].first, places[k].second);
-    const auto value = trimmed(field).empty() ? std::optional(0) : integer_in(field);
-    if (!value) return false;
-    *targets[k] = *value;
-  }
-  f.response.entity = trimmed(columns(line, 31, 10));
-  f.reference.entity = trimmed(columns(line, 56, 10));
-  return true;
-}
-
-/// The same ten fields separated by blanks, names without blanks.
-bool read_freedoms_as_words(std::string_view line, UffFunction& f) {
-  const std::vector<std::string_view> words = words_of(line);
-  if (words.size() != 10) return false;
-  const std::array<std::pair<std::size_t, int*>, 8> targets = {{{0, &f.type},
-                                                                {1, &f.number},
-                                                                {2, &f.version},
-                                                                {3, &f.load_case},
-                                                                {5, &f.response.node},
-                                                                {6, &f.response.direction},
-                                                                {8, &f.reference.node},
-                                                                {9, &f.reference.direction}}};
-  for (const auto& [k, target] : targets) {
-    const auto value = integer_in(words[k]);
-    if (!value) return false;
-    *target = *value;
-  }
-  f.response.entity = words[4];
-  f.reference.entity = words[7];
-  return true;
-}
-
-void read_freedoms(UffInput& in, UffFunction& f) {
-  const std::string_view line = in.require("function type, response and reference");
-  if (!read_freedoms_in_columns(line, f) && !read_freedoms_as_words(line, f))
-    in.fail_line(
-        "expected function type, number, version, load case, then entity, node and direction of response and "
-        "of reference",
-        "write the record in its columns: 2(I5,I10),2(1X,A10,I10,I4)");
-}
-
-/// 3I10,3E13.5: ordinate type, count of points, spacing, abscissa begin and step, z.
-Layout read_form(UffInput& in, UffFunction& f) {
-  in.require_filled("the data form");
-  auto fields = number_fields(in, {10, 10, 10, 13, 13, 13}, 6);
-  fields.resize(std::max<std::size_t>(fields.size(), 6));
-  const int type = integer_field(in, fields[0], "the ordinate type");
-  const int points = integer_field(in, fields[1], "the count of points");
-  const int spacing = integer_field(in, fields[2], "the abscissa spacing");
-  if (type != 2 && type != 4 && type != 5 && type != 6)
-    fail_field(in, fields[0], "the ordinate type must be 2, 4, 5 or 6",
-               "write real or complex values in single or double precision");
-  if (points < 0) fail_field(in, fields[1], "the count of points must not be negative", "correct the count");
-  if (spacing != 0 && spacing != 1)
-    fail_field(in, fields[2], "the abscissa spacing must be 0 or 1",
-               "write 1 for even, 0 for uneven spacing");
-  f.abscissa_start = real_field(in, fields[3], "the first abscissa");
-  f.abscissa_step = real_field(in, fields[4], "the abscissa step");
-  f.z_value = real_field(in, fields[5], "the z value");
-  f.is_even = spacing == 1;
-  f.is_complex = type >= 5;
-  return {static_cast<std::size_t>(points), f.is_even, f.is_complex, type == 4 || type == 6};
-}
-
-/// I10,3I5,1X,20A1,1X,20A1; else six words.
-UffAxis axis_from(const UffInput& in) {
-  const std::string_view line = in.text();
-  std::array<std::string_view, 4> fields = {columns(line, 0, 10), columns(line, 10, 5), columns(line, 15, 5),
-                                            columns(line, 20, 5)};
-  std::string_view label = columns(line, 26, 20), unit = columns(line, 47, 20);
-  const auto is_integer = [](std::string_view field) { return trimmed(field).empty() || integer_in(field); };
-  const std::vector<std::string_view> words = words_of(line);
-  if (!std::all_of(fields.begin(), fields.end(), is_integer) && words.size() == 6) {
-    std::copy_n(words.begin(), 4, fields.begin());
-    label = words[4];
-    unit = words[5];
-  }
-  UffAxis axis;
-  axis.quantity = integer_field(in, fields[0], "the quantity of an axis");
-  axis.length_exponent = integer_field(in, fields[1], "a unit exponent");
-  axis.force_exponent = integer_field(in, fields[2], "a unit exponent");
-  axis.temperature_exponent = integer_field(in, fields[3], "a unit exponent");
-  axis.label = trimmed(label);
-  axis.unit = trimmed(unit);
-  return axis;
-}
-
-Layout read_heading(UffInput& in, UffFunction& f) {
-  for (std::string& id : f.ids) id = without_trailing_blanks(in.require("an identification line"));
-  read_freedoms(in, f);
-  const Layout layout = read_form(in, f);
-  for (UffAxis* axis : {&f.abscissa_axis, &f.ordinate_axis, &f.denominator_axis}) {
-    in.require("the description of an axis");
-    *axis = axis_from(in);
-  }
-  in.require_before_binary("the description of the z axis");
-  f.z_axis = axis_from(in);
-  return layout;
-}
-
-// ---- record 12: the values ----------------------------------------------------------------------------------
-
 /// Takes the numbers of record 12 one after another: abscissa when uneven, then the ordinate.
 template <class T>
 class ValueSink {
  public:
-  ValueSink(const Layout& layout, UffFunction& f) : layout_(layout), abscissa_(f.abscissa) {
+  ValueSink(const UffLayout& layout, UffFunction& f) : layout_(layout), abscissa_(f.abscissa) {
     values_.reserve(layout.points * layout.ordinates_per_point());
     if (!layout.is_even) abscissa_.reserve(layout.points);
   }
@@ -162,14 +39,14 @@ class ValueSink {
   std::vector<T> take() { return std::move(values_); }
 
  private:
-  Layout layout_;
+  UffLayout layout_;
   std::vector<double>& abscissa_;
   std::vector<T> values_;
   std::size_t count_ = 0;
 };
 
 /// 6E13.5; 4E20.12; 2(E13.5,E20.12); E13.5,2E20.12
-std::initializer_list<int> value_columns(const Layout& layout) {
+std::initializer_list<int> value_columns(const UffLayout& layout) {
   static constexpr std::initializer_list<int> kSingle = {13}, kDouble = {20}, kPairs = {13, 20},
                                               kTriples = {13, 20, 20};
   if (!layout.is_double) return kSingle;
@@ -178,7 +55,7 @@ std::initializer_list<int> value_columns(const Layout& layout) {
 }
 
 template <class T>
-std::vector<T> read_text_values(UffInput& in, const Layout& layout, UffFunction& f) {
+std::vector<T> read_text_values(UffInput& in, const UffLayout& layout, UffFunction& f) {
   const std::size_t wanted = layout.points * layout.numbers_per_point();
   if (wanted > in.bytes_left() / 2 + 1)
     in.fail(fmt::format("{} values do not fit into the rest of the file", wanted),
@@ -223,7 +100,7 @@ void read_numbers(UffInput& in, bool is_big_endian, std::vector<T>& numbers) {
 
 /// Uneven: point after point, through a small buffer. A is the type of the abscissa.
 template <class A, class T>
-std::vector<T> read_uneven_values(UffInput& in, const Layout& layout, UffFunction& f) {
+std::vector<T> read_uneven_values(UffInput& in, const UffLayout& layout, UffFunction& f) {
   ValueSink<T> sink(layout, f);
   std::vector<A> abscissa(1);
   std::vector<T> ordinates(layout.ordinates_per_point());
@@ -236,14 +113,14 @@ std::vector<T> read_uneven_values(UffInput& in, const Layout& layout, UffFunctio
   return sink.take();
 }
 
-/// The length of the binary block: the announced one if the delimiter follows there, else one that the count of
-/// points gives: programs announce the bytes of real values for complex ones, or count line ends.
+/// The length of the binary block: the announced one if the delimiter follows there, else one that the count
+/// of points gives: programs announce the bytes of real values for complex ones, or count line ends.
 struct BlockLength {
   std::uintmax_t bytes = 0;
   bool has_single_abscissa = false;
 };
 
-BlockLength find_block_length(UffInput& in, const Layout& layout, std::uintmax_t announced) {
+BlockLength find_block_length(UffInput& in, const UffLayout& layout, std::uintmax_t announced) {
   const std::size_t size = layout.is_double ? 8 : 4;
   const std::uintmax_t equal = std::uintmax_t{layout.points} * layout.numbers_per_point() * size;
   std::vector<BlockLength> candidates = {{equal, !layout.is_double}};
@@ -261,7 +138,7 @@ BlockLength find_block_length(UffInput& in, const Layout& layout, std::uintmax_t
 }
 
 template <class T>
-std::vector<T> read_binary_values(UffInput& in, const Layout& layout, std::uintmax_t announced,
+std::vector<T> read_binary_values(UffInput& in, const UffLayout& layout, std::uintmax_t announced,
                                   UffFunction& f) {
   const BlockLength block = find_block_length(in, layout, announced);
   if (!layout.is_even && block.has_single_abscissa) return read_uneven_values<float, T>(in, layout, f);
@@ -284,7 +161,7 @@ std::array<std::string_view, 4> binary_form_fields(std::string_view line) {
 
 void read_uff_function(UffInput& in, UffContents& contents) {
   UffFunction f;
-  const Layout layout = read_heading(in, f);
+  const UffLayout layout = read_uff_function_heading(in, f);
   if (layout.is_double)
     f.values = read_text_values<double>(in, layout, f);
   else
@@ -292,8 +169,8 @@ void read_uff_function(UffInput& in, UffContents& contents) {
   contents.file.functions.push_back(std::move(f));
 }
 
-/// I6,1A1,I6,I6,I12,I12,...: 58, b, byte order (1 little, 2 big endian), format (1 VAX, 2 IEEE 754, 3 IBM 370),
-/// lines of the heading, bytes of the block.
+/// I6,1A1,I6,I6,I12,I12,...: 58, b, byte order (1 little, 2 big endian), format (1 VAX, 2 IEEE 754, 3 IBM
+/// 370), lines of the heading, bytes of the block.
 void read_uff_binary_function(UffInput& in, UffContents& contents) {
   UffFunction f;
   f.is_binary = true;
@@ -307,7 +184,7 @@ void read_uff_binary_function(UffInput& in, UffContents& contents) {
     fail_field(in, fields[1], "the floating-point format must be 2", "write the values as IEEE 754 numbers");
   f.is_big_endian = order == 2;
 
-  const Layout layout = read_heading(in, f);
+  const UffLayout layout = read_uff_function_heading(in, f);
   const auto announced = bytes > 0 && bytes < 1e18 ? static_cast<std::uintmax_t>(bytes) : 0;
   if (layout.is_double)
     f.values = read_binary_values<double>(in, layout, announced, f);

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "identification/formats/uff_datasets.h"
@@ -10,7 +12,8 @@
 namespace wishbone {
 namespace {
 
-/// Columns of 18: x along the second point, y normal to the plane of the third: z = in the plane of x and the third.
+/// Columns of 18: x along the second point, y normal to the plane of the third: z = in the plane of x and the
+/// third.
 Matrix3 axes_through(const UffInput& in, const Vector3& origin, const Vector3& on_x, const Vector3& on_xz) {
   const Vector3 x = on_x - origin, towards_z = on_xz - origin;
   const Vector3 y = towards_z.cross(x);
@@ -23,12 +26,17 @@ Matrix3 axes_through(const UffInput& in, const Vector3& origin, const Vector3& o
 }
 
 void add(const UffInput& in, UffContents& contents, UffCoordinateSystem system) {
-  for (const auto& other : contents.file.coordinate_systems)
-    if (other.number == system.number &&
-        !(other.axes.isApprox(system.axes, 1e-5) && other.origin.isApprox(system.origin, 1e-5)))
-      in.fail("a coordinate system is defined twice, differently", fmt::format("system {}", system.number),
-              "number each system once");
-  contents.file.coordinate_systems.push_back(std::move(system));
+  std::vector<UffCoordinateSystem>& systems = contents.file.coordinate_systems;
+  const auto [found, is_new] = contents.system_at.emplace(system.number, systems.size());
+  if (is_new) {
+    systems.push_back(std::move(system));
+    return;
+  }
+  const UffCoordinateSystem& first = systems[found->second];
+  if (!first.axes.isApprox(system.axes, 1e-5) || !first.origin.isApprox(system.origin, 1e-5) ||
+      first.type != system.type || first.reference != system.reference)
+    in.fail("a coordinate system is defined twice, differently", fmt::format("system {}", system.number),
+            "number each system once");
 }
 
 Vector3 position_from(const std::vector<double>& p) {
@@ -76,7 +84,8 @@ void read_uff_coordinate_systems(UffInput& in, UffContents& contents) {
   }
 }
 
-/// I10 / 40A2, then for each system 3I10 / 40A2 / 4(3D25.16): rows of the matrix are the axes, the last the origin.
+/// I10 / 40A2, then for each system 3I10 / 40A2 / 4(3D25.16): rows of the matrix are the axes, the last the
+/// origin.
 void read_uff_coordinate_matrices(UffInput& in, UffContents& contents) {
   in.require("the part number");
   in.require("the part name");

@@ -19,7 +19,8 @@ void read_uff_header(UffInput& in, UffContents& contents) {
   if (!contents.file.header) contents.file.header = header;
 }
 
-/// I10,20A1,I10 / 3D25.17 / D25.17. The description may stand right behind the code, the temperature mode be left out.
+/// I10,20A1,I10 / 3D25.17 / D25.17. The description may stand right behind the code, the temperature mode be
+/// left out.
 void read_uff_units(UffInput& in, UffContents& contents) {
   UffUnits units;
   const std::string_view line = in.require_filled("the units code");

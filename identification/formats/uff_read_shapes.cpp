@@ -24,8 +24,8 @@ void read_ids(UffInput& in, UffShape& shape) {
   for (std::string& id : shape.ids) id = without_trailing_blanks(in.require("an identification line"));
 }
 
-/// 6I10: model, analysis, characteristic, quantity, data type, values a node. False when the data type is none that
-/// is read.
+/// 6I10: model, analysis, characteristic, quantity, data type, values a node. False when the data type is
+/// none that is read.
 bool read_definition(UffInput& in, UffShape& shape) {
   in.require_filled("the data definition parameters");
   const std::vector<int> fields = integers_of_line(in, 10, 6, "a data definition parameter");

@@ -51,6 +51,18 @@ void read_dataset(UffInput& in, UffContents& contents) {
   in.skip_dataset();
 }
 
+/// Some programs write a line of text between two datasets; a number there tells that a delimiter is missing.
+void pass_over_text(const UffInput& in, bool is_first, UffFile& file) {
+  if (is_first)
+    in.fail_line("expected the delimiter '    -1' in front of a dataset",
+                 "name a Universal File (.uff, .unv)");
+  const std::string_view text = trimmed(in.text());
+  if (number_length(text) > 0)
+    in.fail_line("expected the delimiter '    -1' in front of a dataset",
+                 "close the dataset before it by '    -1'");
+  file.unused.push_back({0, in.line(), "text between datasets"});
+}
+
 }  // namespace
 
 UffFile read_uff(const std::filesystem::path& path) {
@@ -73,10 +85,10 @@ UffFile read_uff(std::istream& stream, const std::string& name) {
   while (in.advance()) {
     if (trimmed(in.text()).empty()) continue;
     in.set_dataset("");
-    if (!in.at_delimiter())
-      in.fail_line(
-          "expected the delimiter '    -1' in front of a dataset",
-          is_empty ? "name a Universal File (.uff, .unv)" : "close the dataset before it by '    -1'");
+    if (!in.at_delimiter()) {
+      pass_over_text(in, is_empty, contents.file);
+      continue;
+    }
     if (!in.advance()) in.fail("the file ends where a dataset begins", "", "remove the last delimiter");
     is_empty = false;
     if (!in.at_delimiter()) read_dataset(in, contents);

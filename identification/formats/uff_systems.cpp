@@ -2,47 +2,44 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <string>
 #include <utility>
 
 #include "core/error.h"
 
 namespace wishbone {
-namespace {
 
-constexpr int kGlobal = 1;
-
-auto find(const std::vector<UffCoordinateSystem>& systems, int number) {
-  return std::find_if(systems.begin(), systems.end(),
-                      [&](const auto& system) { return system.number == number; });
+UffSystems::UffSystems(const std::vector<UffCoordinateSystem>& systems, std::string where)
+    : where_(std::move(where)) {
+  for (const UffCoordinateSystem& system : systems) systems_.emplace(system.number, &system);
 }
 
-}  // namespace
-
-bool is_undefined_global(const std::vector<UffCoordinateSystem>& systems, int number) {
-  return number == kGlobal && find(systems, number) == systems.end();
-}
-
-UffFrame uff_frame(const std::vector<UffCoordinateSystem>& systems, int number, const std::string& file) {
+const UffFrame& UffSystems::frame(int number) {
   const auto refuse = [&](std::string what, int which, std::string remedy) {
-    throw InputError({file, std::move(what), fmt::format("coordinate system {}", which), std::move(remedy)});
+    throw InputError(
+        {where_, std::move(what), fmt::format("coordinate system {}", which), std::move(remedy)});
   };
-  UffFrame frame;
-  std::size_t steps = 0;
-  while (number != 0 && !is_undefined_global(systems, number)) {
-    const auto system = find(systems, number);
-    if (system == systems.end())
-      refuse("a coordinate system is referred to and not defined", number, "write it as dataset 18 or 2420");
-    if (system->type != 0)
-      refuse("a coordinate system that is referred to must be Cartesian", number,
+  // the systems on the way to one whose frame is known, and back
+  std::vector<const UffCoordinateSystem*> way;
+  int next = number;
+  while (!is_global(next) && !frames_.contains(next)) {
+    const auto system = systems_.find(next);
+    if (system == systems_.end())
+      refuse("a coordinate system is referred to and not defined", next, "write it as dataset 18 or 2420");
+    if (system->second->type != 0)
+      refuse("a coordinate system that is referred to must be Cartesian", next,
              "write nodes and shapes in Cartesian coordinates");
-    if (++steps > systems.size())
-      refuse("coordinate systems refer to each other in a circle", number, "let one of them refer to 0");
-    frame = {system->origin + system->axes * frame.origin, system->axes * frame.axes};
-    number = system->reference;
+    way.push_back(system->second);
+    if (way.size() > systems_.size())
+      refuse("coordinate systems refer to each other in a circle", next, "let one of them refer to 0");
+    next = system->second->reference;
   }
-  return frame;
+  for (; !way.empty(); way.pop_back()) {
+    const UffCoordinateSystem& system = *way.back();
+    const UffFrame& base = frames_[system.reference];  // global ones are the identity
+    const UffFrame frame = {base.origin + base.axes * system.origin, base.axes * system.axes};
+    frames_[system.number] = frame;
+  }
+  return frames_[number];
 }
 
 }  // namespace wishbone

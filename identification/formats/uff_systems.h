@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "core/spatial.h"
@@ -15,12 +17,22 @@ struct UffFrame {
   Vector3 global(const Vector3& local) const { return origin + axes * local; }
 };
 
-/// Position of a coordinate system through those that it refers to. Number 0 is global, and so is 1 where the file does
-/// not define it: finite-element programs name the global system so. Throws InputError (place: `file`) for a system
-/// that is not defined, that is not Cartesian, or that refers to itself.
-UffFrame uff_frame(const std::vector<UffCoordinateSystem>& systems, int number, const std::string& file);
+/// The coordinate systems of a file, followed through those that they refer to. Number 0 is global, and so is
+/// 1 where the file does not define it: finite-element programs name the global system so.
+class UffSystems {
+ public:
+  /// `where` is the place that errors name.
+  UffSystems(const std::vector<UffCoordinateSystem>& systems, std::string where);
 
-/// Whether `number` is global because the file does not define it.
-bool is_undefined_global(const std::vector<UffCoordinateSystem>& systems, int number);
+  bool is_global(int number) const { return number == 0 || (number == 1 && !systems_.contains(1)); }
+
+  /// Throws InputError for a system that is not defined, that is not Cartesian, or that refers to itself.
+  const UffFrame& frame(int number);
+
+ private:
+  std::string where_;
+  std::unordered_map<int, const UffCoordinateSystem*> systems_;
+  std::unordered_map<int, UffFrame> frames_;  ///< of the numbers that were asked for
+};
 
 }  // namespace wishbone

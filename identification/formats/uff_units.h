@@ -17,9 +17,9 @@ struct UffScale {
   double kilogram() const { return newton / metre; }
 };
 
-/// Scale of dataset 164. Its factors count: the file's value divided by the factor is SI. Where they contradict the
-/// table of codes (1 m N, 2 ft lbf, 3 m kgf, 4 ft pdl, 5 mm mN, 6 cm cN, 7 in lbf, 8 mm kgf, 9 user-defined, 10 mm N)
-/// `provenance` says so. Without the dataset, metre and newton are assumed.
+/// Scale of dataset 164. Its factors count: the file's value divided by the factor is SI. Where they
+/// contradict the table of codes (1 m N, 2 ft lbf, 3 m kgf, 4 ft pdl, 5 mm mN, 6 cm cN, 7 in lbf, 8 mm kgf, 9
+/// user-defined, 10 mm N) `provenance` says so. Without the dataset, metre and newton are assumed.
 UffScale uff_scale(const std::optional<UffUnits>& units);
 
 }  // namespace wishbone

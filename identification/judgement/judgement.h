@@ -15,7 +15,7 @@ struct ReferenceComparison {
   VectorX reference_hz;  ///< k, frequencies of the reference
   MatrixX mac;           ///< m x k, identified modes against the reference over the freedoms of both
   std::vector<int>
-      partner;  ///< m, reference mode of largest MAC with each identified mode; -1: none above 0.5
+      partner;  ///< m, reference mode of largest MAC with each identified mode; -1: none of at least 0.4
   VectorX frequency_error;  ///< m, f / f_partner - 1; NaN without partner
 };
 

@@ -94,6 +94,16 @@ TEST(MatrixMarket, OfAnyKindIsTheMatrixThatItMeans) {
   EXPECT_EQ(read("%%MatrixMarket matrix array real general\n0 3\n").cols(), 3);
 }
 
+TEST(MatrixMarket, OfCalculixHasTheFrequenciesThatCalculixPrints) {
+  const std::string folder = std::string(WISHBONE_TEST_DATA) + "/calculix/";
+  const MatrixX K = read_matrix_market(folder + "beam_stiffness.mtx");
+  const MatrixX M = read_matrix_market(folder + "beam_mass.mtx");
+  const VectorX frequency = solve_eigenproblem(K, M).frequency_hz();
+  EXPECT_LT(frequency.head(6).maxCoeff(), 0.1);  // free
+  const Eigen::Vector4d printed(914.6903, 914.6903, 1650.568, 2676.603);
+  EXPECT_LT((frequency.segment<4>(6) - printed).cwiseQuotient(printed).cwiseAbs().maxCoeff(), 1e-6);
+}
+
 TEST(MatrixMarket, MayBeSpacedAndCommentedAnyway) {
   const TextFiles files;
   const std::string_view text =

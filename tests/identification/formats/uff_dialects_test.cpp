@@ -53,7 +53,8 @@ TEST(UffNumbers, MessagesAreValidText) {
   EXPECT_EQ(shown(""), "");
 }
 
-// ---- lines and columns --------------------------------------------------------------------------------------
+// ---- lines and columns
+// --------------------------------------------------------------------------------------
 
 const std::string kNode =
     "    -1\n    15\n         4         0         2         8 -2.40000E+00 -9.50000E-01  1.00000E+02\n    "
@@ -154,7 +155,21 @@ TEST(UffDialects, MatricesOfCoordinateSystemsHaveTheirAxesInRows) {
   EXPECT_EQ(system.origin, Vector3(5, 6, 7));
 }
 
-// ---- functions ----------------------------------------------------------------------------------------------
+TEST(UffDialects, TextMayStandBetweenDatasets) {
+  const UffFile file =
+      read_text(kNode + "Workpiece\nFile written 1 Jun 2016\n" + replaced(kNode, "    4 ", "    5 "));
+  EXPECT_EQ(file.nodes.size(), 2u);
+  ASSERT_EQ(file.unused.size(), 2u);
+  EXPECT_EQ(file.unused[1].line, 6u);
+  EXPECT_EQ(file.unused[1].why, "text between datasets");
+}
+
+TEST(UffDialects, AByteOrderMarkMayStandInFront) {
+  expect_node_4(read_text("\xEF\xBB\xBF" + kNode));
+}
+
+// ---- functions
+// ----------------------------------------------------------------------------------------------
 
 /// Head of dataset 58 or 58b for a function of `form`, its seventh record.
 std::string function_head(const std::string& first_line, const std::string& form) {
@@ -217,6 +232,34 @@ TEST(UffDialects, AbscissaOfABinaryBlockMayBeSingleBesideDoubleValues) {
   const UffFile file = read_text(binary_head(36, form) + block + "    -1\n");
   EXPECT_THAT(file.functions.at(0).abscissa, ElementsAre(1, 2.5, 4));
   EXPECT_THAT(std::get<std::vector<double>>(file.functions[0].values), ElementsAre(10, 25, 40));
+}
+
+TEST(UffDialects, NamesMayHaveBlanksOrBeTooLong) {
+  const auto freedoms_of = [](const std::string& record) {
+    std::string text =
+        function_head("    58", "         2         0         1  0.00000E+00  1.00000E+00  0.00000E+00");
+    text = replaced(text, "    4         0    0         0 NONE               3   1 NONE               5   3",
+                    record);
+    return read_text(text + "    -1\n").functions.at(0);
+  };
+  for (const auto& [record, response, reference] : std::vector<std::array<std::string, 3>>{
+           {"    4         7    0         0  sine 5 Hz         3   1       NONE         5   3", "sine 5 Hz",
+            "NONE"},
+           {"    4         7    0         0                    3   1                    5   3", "", ""},
+           {"    4         7    0         0 PF-I-0301-1         3   1       NONE         5   3",
+            "PF-I-0301-1", "NONE"},
+           {"4         7    0           0 AP                 3   1 NONE               5   3", "AP",
+            "NONE"}}) {
+    const UffFunction f = freedoms_of(record);
+    EXPECT_EQ(f.type, 4) << record;
+    EXPECT_EQ(f.number, 7) << record;
+    EXPECT_EQ(f.response.entity, response);
+    EXPECT_EQ(f.response.node, 3) << record;
+    EXPECT_EQ(f.response.direction, 1) << record;
+    EXPECT_EQ(f.reference.entity, reference);
+    EXPECT_EQ(f.reference.node, 5) << record;
+    EXPECT_EQ(f.reference.direction, 3) << record;
+  }
 }
 
 TEST(UffDialects, TextValuesMayTouchAndSpreadOverLines) {

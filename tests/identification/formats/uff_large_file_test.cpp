@@ -13,7 +13,7 @@ namespace wishbone {
 namespace {
 
 constexpr std::size_t kPoints = 50'000'000;  // 200 MB
-constexpr std::size_t kChunk = 1'000'000;
+constexpr std::size_t kChunk = 50'000;
 
 float value_at(std::size_t k) {
   return static_cast<float>((k * 2654435761u) % 1000003u) - 500000.0f;

@@ -64,7 +64,8 @@ UffFile two_nodes_with(std::vector<UffShape> shapes) {
   return file;
 }
 
-// ---- units --------------------------------------------------------------------------------------------------
+// ---- units
+// --------------------------------------------------------------------------------------------------
 
 /// Adds a mode to a file of another program, so that it becomes modal data.
 ModalData with_mode(const std::string& name, double modal_mass) {
@@ -94,7 +95,8 @@ TEST(UffModalData, MassesFollowFromForceAndLength) {
     int code;
     double length, force, kilogram;
   };
-  // 1 lbf s2/ft = 1 slug = 14.5939 kg; 1 kgf s2/m = 9.80665 kg; 1 N s2/mm = 1 t; 1 lbf s2/in = 175.127 kg; pound
+  // 1 lbf s2/ft = 1 slug = 14.5939 kg; 1 kgf s2/m = 9.80665 kg; 1 N s2/mm = 1 t; 1 lbf s2/in = 175.127 kg;
+  // pound
   const std::vector<System> systems = {{2, 3.280839895013123, 0.2248089430997105, 14.593902937206366},
                                        {3, 1, 0.1019716212977928, 9.80665},
                                        {4, 3.280839895013123, 7.233013851209894, 0.45359237},
@@ -125,9 +127,11 @@ TEST(UffModalData, FactorsGoBeforeACodeThatContradictsThem) {
   EXPECT_THAT(text_of(data.provenance), HasSubstr("the code means 1 m and 1 N, the factors were used"));
 }
 
-// ---- axes ---------------------------------------------------------------------------------------------------
+// ---- axes
+// ---------------------------------------------------------------------------------------------------
 
-/// System 1: origin (10, 0, 0), turned by 90 deg about z: its x is global y. System 2: in 1, origin (0, 1, 0), likewise.
+/// System 1: origin (10, 0, 0), turned by 90 deg about z: its x is global y. System 2: in 1, origin (0, 1,
+/// 0), likewise.
 UffFile with_turned_systems() {
   Matrix3 quarter;
   quarter << 0, -1, 0, 1, 0, 0, 0, 0, 1;
@@ -191,7 +195,8 @@ TEST(UffModalData, SystemsThatCannotBeFollowedAreRefused) {
   EXPECT_EQ(data_of(file).node_position.col(0), Vector3(1, 2, 3));  // 1 is global where it is not defined
 }
 
-// ---- modes --------------------------------------------------------------------------------------------------
+// ---- modes
+// --------------------------------------------------------------------------------------------------
 
 TEST(UffModalData, ModesOfAFiniteElementProgramAreRead) {
   const ModalData data = read_uff_modal_data(fixture("2411_and_2414.uff"));
@@ -256,6 +261,12 @@ TEST(UffModalData, ComplexModesBecomeReal) {
   }
 }
 
+TEST(UffModalData, ComplexValuesWithoutImaginaryPartsStayAsTheyAre) {
+  UffShape mode = complex_mode(0, {1, -2, 3, 4, 5, -6}, 1, kUffNormalMode);
+  mode.frequency = 5;
+  EXPECT_THAT(data_of(two_nodes_with({mode})).shapes.col(0), ElementsAre(1, -2, 3, 4, 5, -6));
+}
+
 TEST(UffModalData, ModesThatAreFarFromRealAreNamed) {
   UffShape mode = complex_mode({-5, 99}, {1, 2, 3, 4, 5, 6}, 1);
   for (std::size_t k = 1; k < 6; k += 2) mode.values[k] = 3;  // imaginary parts of node 1
@@ -318,7 +329,8 @@ TEST(UffModalData, AFileWithoutModesOrPositionsIsRefusedWithWhatItHolds) {
               HasSubstr("of zero frequency"));
 }
 
-// ---- there and back -----------------------------------------------------------------------------------------
+// ---- there and back
+// -----------------------------------------------------------------------------------------
 
 TEST(UffModalData, RoundTripKeepsSixDigits) {
   ModalData data;
