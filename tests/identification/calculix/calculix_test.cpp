@@ -2,13 +2,19 @@
 // modes on a support to six digits, and what they are held against, the modes of the free structure.
 #include <gtest/gtest.h>
 
-#include <numbers>
+#include <cmath>
 
 #include "identification/calculix/calculix_structure.h"
+#include "identification/calculix/calculix_user_files.h"
+#include "identification/formats/matrix_market.h"
+#include "identification/formats/modal_file.h"
+#include "identification/identify.h"
 #include "identification/methods/lowest_modes.h"
 #include "identification/methods/released_modes.h"
 #include "identification/methods/rigid_modes.h"
 #include "identification/methods/support_matrices.h"
+#include "models/identification_loader.h"
+#include "temporary_folder.h"
 
 namespace wishbone {
 namespace {
@@ -101,6 +107,34 @@ TEST_F(CalculixFrame, IsFreedFromItsJoints) {
   // a joint at a node dents the solid about it: the upper half of a truncated set shows it
   const CalculixStructure s = calculix_supported_structure(frame_joints());
   expect_free_modes(release(s), s, 20, 1e-3, 0.999);
+}
+
+TEST_F(CalculixFrame, IsTheSameInEveryFileThatItsAnalystHandsOver) {
+  const CalculixStructure s = calculix_supported_structure(frame_springs(1e7));
+  const TemporaryFolder folder;
+  write_user_files(s, folder / "");
+  const VectorX expected = release(s).modes.frequency_hz();
+  for (const char* name : {"modes.h5", "modes.unv", "modes.csv"}) {
+    CalculixStructure read{read_modal_data(folder / name), read_matrix_market(folder / "mass.mtx"), {}, {}};
+    ASSERT_EQ(read.supported.freedoms, s.supported.freedoms) << name;
+    read.supported.support = s.supported.support;
+    EXPECT_LE(relative_difference(release(read).modes.frequency_hz(), expected).cwiseAbs().maxCoeff(), 1e-5)
+        << name;
+  }
+}
+
+TEST_F(CalculixFrame, IsIdentifiedFromTheFilesOfItsAnalyst) {
+  const TemporaryFolder folder;
+  write_user_files(calculix_supported_structure(frame_joints()), folder / "");
+  const Identification result = identify(load_identification(folder / "identification.yaml").task);
+  ASSERT_TRUE(result.judgement.reference);
+  const ReferenceComparison& comparison = *result.judgement.reference;
+  for (int j = 0; j < 20; ++j) {
+    const auto i = static_cast<std::size_t>(j);
+    EXPECT_EQ(comparison.partner[i], j);
+    EXPECT_LE(std::abs(comparison.frequency_error[j]), 1e-3);
+    EXPECT_GE(comparison.mac(j, j), 0.999);
+  }
 }
 
 }  // namespace
