@@ -2,14 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
-#include <utility>
 
 #include "core/document.h"
 #include "identification/formats/csv_table.h"
 #include "identification/formats/modal_file.h"
+#include "identification/held_freedoms.h"
 #include "identification/methods/model_modes.h"
 #include "identification/methods/support_matrices.h"
 #include "models/identification_sections.h"
@@ -55,24 +53,6 @@ void read_node_masses(const std::filesystem::path& path, ModalData& data) {
     if (!(value >= 0)) table.reject(mass, "a mass must not be negative", "give the lumped mass of the node");
     data.node_mass[data.node_index(table.integer(node))] = value;
   }
-}
-
-/// Gives freedoms that joints along an axis hold rows of zeros: files need not list what does not move.
-void list_held_freedoms(ModalData& data) {
-  const auto place = [&](const Freedom& f) { return std::pair(data.node_index(f.node), f.axis); };
-  for (const Support::Joint& joint : data.support.joints)
-    for (int axis = 0; axis < 3; ++axis) {
-      const Freedom held{joint.node, axis};
-      if (std::abs(joint.direction[axis]) != 1 || data.row(held)) continue;
-      const auto next = std::find_if(data.freedoms.begin(), data.freedoms.end(),
-                                     [&](const Freedom& f) { return place(f) > place(held); });
-      const Eigen::Index above = next - data.freedoms.begin(), below = data.freedom_count() - above;
-      MatrixX shapes = MatrixX::Zero(data.freedom_count() + 1, data.mode_count());
-      shapes.topRows(above) = data.shapes.topRows(above);
-      shapes.bottomRows(below) = data.shapes.bottomRows(below);
-      data.shapes = std::move(shapes);
-      data.freedoms.insert(next, held);
-    }
 }
 
 /// One section on its way into a task.
@@ -122,7 +102,7 @@ class Reader {
     }
     located(value.where(), [&] {
       data.validate();
-      list_held_freedoms(data);
+      data = with_held_freedoms(data);
       return 0;
     });
     const auto choice = keys.optional("modes");
