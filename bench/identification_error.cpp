@@ -68,7 +68,8 @@ void print_row(const Chassis& c, const std::string& name, const Support& held, E
   const VectorX modal = by_the_source(c, support, given, Space::kModal);
   const double difference = (physical.array() / modal.array() - 1).abs().maxCoeff();
   fmt::print("| {} | {} | {} | {:.2g} | {:.2g} | {:.2g} | {:.2g} | {:.2g} | {} |\n", name, kept, f.size(),
-             worst_percent(f, c.free_hz, 3), worst_percent(f, c.free_hz, 1000), estimate.head(std::min<Eigen::Index>(3, f.size())).maxCoeff(),
+             worst_percent(f, c.free_hz, 3), worst_percent(f, c.free_hz, 1000),
+             estimate.head(std::min<Eigen::Index>(3, f.size())).maxCoeff(),
              worst_percent(modal, c.free_hz, 3), worst_percent(modal, c.free_hz, 1000),
              support.D.rows() > 0 ? "" : fmt::format("{:.0e}", difference));
 }
@@ -78,8 +79,10 @@ void print_row(const Chassis& c, const std::string& name, const Support& held, E
 int main() {
   const Chassis chassis;
   fmt::print(
-      "| support | modes measured | modes found | error of the lowest 3 [%] | of all [%] | estimate for the lowest 3 "
-      "[%] | source: lowest 3 [%] | of all [%] | physical against modal space |\n|---|---|---|---|---|---|---|---|---|\n");
+      "| support | modes measured | modes found | error of the lowest 3 [%] | of all [%] | estimate for the "
+      "lowest 3 "
+      "[%] | source: lowest 3 [%] | of all [%] | physical against modal space "
+      "|\n|---|---|---|---|---|---|---|---|---|\n");
   for (const int kept : {10, 20, 27, 60})
     for (const double k : {1e2, 1e3, 1e4, 47e3, 1e5, 1e6, 1e7, 1e8})
       print_row(chassis, fmt::format("springs {:.3g} N/m", k), springs(k), kept);

@@ -29,9 +29,10 @@ ModalData with_held_freedoms(const ModalData& data) {
   for (int i = 0; i < data.node_count(); ++i) place[data.node_ids[static_cast<std::size_t>(i)]] = i;
   ModalData complete = data;
   complete.freedoms.insert(complete.freedoms.end(), missing.begin(), missing.end());
-  std::stable_sort(complete.freedoms.begin(), complete.freedoms.end(), [&](const Freedom& a, const Freedom& b) {
-    return std::tuple(place.at(a.node), a.axis) < std::tuple(place.at(b.node), b.axis);
-  });
+  std::stable_sort(complete.freedoms.begin(), complete.freedoms.end(),
+                   [&](const Freedom& a, const Freedom& b) {
+                     return std::tuple(place.at(a.node), a.axis) < std::tuple(place.at(b.node), b.axis);
+                   });
   complete.shapes = MatrixX::Zero(complete.freedom_count(), data.mode_count());
   for (int i = 0; i < complete.freedom_count(); ++i)
     if (const auto row = data.row(complete.freedoms[static_cast<std::size_t>(i)]))

@@ -17,8 +17,9 @@ namespace {
 
 using namespace identification_sections;
 
-/// A virtual test: modes of the model on the support, rigid-body modes of a free one left out.
-ModalData model_test(const AnalyticalModel& model, const Support& support) {
+/// A virtual test: the lowest modes of the model on the support (all by default), rigid-body modes of a free one left
+/// out.
+ModalData model_test(const AnalyticalModel& model, const Support& support, std::optional<int> count) {
   ModalData data;
   data.node_ids = model.node_ids;
   data.node_position = model.node_position;
@@ -26,9 +27,11 @@ ModalData model_test(const AnalyticalModel& model, const Support& support) {
   data.freedoms = model.freedoms();
   data.lines = model.lines;
   data.support = support;
-  Modes modes = model_modes(model.K, model.M, support_matrices(support, data.freedoms));
-  if (support.springs.empty() && support.joints.empty())
-    modes = {modes.lambda.tail(modes.count() - 6), modes.shapes.rightCols(modes.count() - 6)};
+  const int rigid = support.springs.empty() && support.joints.empty() ? 6 : 0;
+  std::optional<Eigen::Index> wanted;
+  if (count) wanted = *count + rigid;
+  Modes modes = model_modes(model.K, model.M, support_matrices(support, data.freedoms), wanted);
+  modes = {modes.lambda.tail(modes.count() - rigid), modes.shapes.rightCols(modes.count() - rigid)};
   constexpr double kRounding = 1e-12;  // of the largest eigenvalue
   if (!(modes.lambda[0] > kRounding * modes.lambda[modes.count() - 1]))
     throw InputError({"", "the support leaves rigid-body motion of the model free",
@@ -98,7 +101,9 @@ class Reader {
       if (!from.is_word("model"))
         from.refuse("modes can be computed from the model only", "write 'from: model'");
       if (!task_.model) from.refuse("there is no model to take modes from", "add the section 'model'");
-      data = located(from.where(), [&] { return model_test(*task_.model, support.value_or(Support{})); });
+      data = located(from.where(), [&] {
+        return model_test(*task_.model, support.value_or(Support{}), lowest_wanted(keys.optional("modes")));
+      });
     }
     located(value.where(), [&] {
       data.validate();
@@ -107,6 +112,12 @@ class Reader {
     });
     const auto choice = keys.optional("modes");
     return choice ? choose_modes(*choice, data) : data;
+  }
+
+  /// The number when the choice of modes is one, so that no others need be computed.
+  std::optional<int> lowest_wanted(const std::optional<Value>& choice) const {
+    if (!choice || choice->is_list() || choice->is_mapping() || choice->is_word("all")) return std::nullopt;
+    return choice->integer(1, static_cast<int>(task_.model->M.rows()));
   }
 
   void read_mass(const Value& value) {

@@ -34,12 +34,13 @@ void turn_towards_partners(const MatrixX& shapes, const std::vector<int>& partne
                                       Eigen::ComputeFullU | Eigen::ComputeFullV);
   const MatrixX turned = R * svd.matrixU() * svd.matrixV().transpose();
   for (std::size_t k = 0; k < partners_of_cluster.size(); ++k)
-    reference.col(partner[static_cast<std::size_t>(partners_of_cluster[k])]) = turned.col(static_cast<Eigen::Index>(k));
+    reference.col(partner[static_cast<std::size_t>(partners_of_cluster[k])]) =
+        turned.col(static_cast<Eigen::Index>(k));
 }
 
 /// Does so for every group of modes of one frequency.
-void turn_within_equal_frequencies(const MatrixX& shapes, const std::vector<int>& partner, const VectorX& omega,
-                                   MatrixX& reference) {
+void turn_within_equal_frequencies(const MatrixX& shapes, const std::vector<int>& partner,
+                                   const VectorX& omega, MatrixX& reference) {
   constexpr double kEqual = 1e-4;
   for (int first = 0, last = 1; first < omega.size(); first = last++) {
     while (last < omega.size() && omega[last] <= (1 + kEqual) * omega[last - 1]) ++last;
@@ -64,7 +65,8 @@ ReferenceComparison compare_with_reference(const ModalData& modes, const ModalDa
   turn_within_equal_frequencies(shapes, first_partner, reference.omega, reference_shapes);
   comparison.mac = modal_assurance(shapes, reference_shapes);
   comparison.partner = partners(comparison.mac);
-  comparison.frequency_error = VectorX::Constant(modes.mode_count(), std::numeric_limits<double>::quiet_NaN());
+  comparison.frequency_error =
+      VectorX::Constant(modes.mode_count(), std::numeric_limits<double>::quiet_NaN());
   for (int j = 0; j < modes.mode_count(); ++j)
     if (const int k = comparison.partner[static_cast<std::size_t>(j)]; k >= 0)
       comparison.frequency_error[j] = modes.omega[j] / reference.omega[k] - 1;
