@@ -72,7 +72,7 @@ void warn_of_data(const PreparedStructure& s, const Modes& unit, Judgement& judg
 }
 
 void warn_of_result(const Solution& solution, Judgement& judgement) {
-  constexpr double kStiffSupport = 1, kLargeError = 0.02;
+  constexpr double kStiffSupport = 0.3, kLargeError = 0.02;
   if (solution.support_ratio > kStiffSupport)
     judgement.warnings.push_back(fmt::format(
         "the kept modes cannot carry the support: it is {:.2g} times as stiff as the stiffest of them; "
