@@ -40,10 +40,13 @@ std::string support_text(const Support& support) {
 
 std::string lead(const Identification& identification) {
   const ModalData& input = identification.input;
-  std::string text = fmt::format("{} of the free structure, identified from {} at {} of {}, {}",
-                                 plural(identification.modes.mode_count(), "mode"),
-                                 plural(input.mode_count(), "mode"), plural(input.freedom_count(), "freedom"),
-                                 plural(input.node_count(), "node"), support_text(input.support));
+  const Support& found_on = identification.modes.support;
+  std::string text =
+      fmt::format("{} of the {}structure{}, identified from {} at {} of {}, {}",
+                  plural(identification.modes.mode_count(), "mode"), found_on.empty() ? "free " : "",
+                  found_on.empty() ? "" : " " + support_text(found_on), plural(input.mode_count(), "mode"),
+                  plural(input.freedom_count(), "freedom"), plural(input.node_count(), "node"),
+                  support_text(input.support));
   if (const auto& reference = identification.judgement.reference)
     text += "; compared with " + reference->name;
   return escape_markup(text) + ".";
@@ -100,6 +103,9 @@ std::vector<Column> mode_columns(const Identification& identification) {
     columns.push_back({"Standard deviation<small>Hz</small>", [&](Eigen::Index i) {
                          return significant_text(at(judgement.frequency_std_hz, i), 2);
                        }});
+  if (judgement.error_estimate.size() > 0)
+    columns.push_back({"Estimated error<small>%</small>",
+                       [&](Eigen::Index i) { return percent_text(at(judgement.error_estimate, i)); }});
   if (judgement.residual.size() > 0)
     columns.push_back({"Residual bound<small>% of &lambda;</small>",
                        [&](Eigen::Index i) { return percent_text(at(judgement.residual, i)); }});
@@ -125,6 +131,8 @@ std::string mode_table(const Identification& identification) {
 /// What the columns mean that are there.
 std::string legend(const Judgement& judgement) {
   std::string text;
+  if (judgement.error_estimate.size() > 0)
+    text += "Estimated error: of the frequency, by what the measured set leaves open. ";
   if (judgement.residual.size() > 0)
     text +=
         "Residual bound: |&lambda; &minus; &lambda;<sub>true</sub>| / &lambda; that the kept modes leave "

@@ -20,14 +20,15 @@ Table mode_table(const Identification& id) {
   const Judgement& j = id.judgement;
   std::vector<std::string> header{"mode", "f [Hz]"};
   if (j.frequency_std_hz.size() > 0) header.push_back("std [Hz]");
-  header.insert(header.end(), {"zeta [%]", "bound [%]"});
+  header.insert(header.end(), {"zeta [%]", "est. error [%]", "bound [%]"});
   if (j.reference) header.insert(header.end(), {"reference [Hz]", "error [%]", "MAC"});
   Table table(header, 0);
   for (Eigen::Index k = 0; k < j.frequency_hz.size(); ++k) {
     std::vector<std::string> row{std::to_string(k + 1), fmt::format("{:.6g}", j.frequency_hz[k])};
     if (j.frequency_std_hz.size() > 0) row.push_back(known(j.frequency_std_hz[k], 1, "{:.3g}"));
     row.push_back(fmt::format("{:.3g}", 100 * id.modes.damping_ratio[k]));
-    row.push_back(known(j.residual[k], 100, "{:.2g}"));
+    row.push_back(known(j.error_estimate[k], 100, "{:.2g}"));
+    row.push_back(known(j.residual[k], 50, "{:.2g}"));  // of omega^2: half of it is that of the frequency
     if (j.reference) {
       const int partner = j.reference->partner[static_cast<std::size_t>(k)];
       row.push_back(partner < 0 ? "-" : fmt::format("{:.6g}", j.reference->reference_hz[partner]));
@@ -75,6 +76,7 @@ nlohmann::ordered_json json_of(const Identification& id) {
                              {"frequency_hz", json_list(j.frequency_hz)},
                              {"damping_ratio", json_list(id.modes.damping_ratio)},
                              {"residual", json_list(j.residual)},
+                             {"error_estimate", json_list(j.error_estimate)},
                              {"frequency_std_hz", json_list(j.frequency_std_hz)},
                              {"input_frequency_hz", json_list(j.input_hz)},
                              {"lost_modes", j.lost_modes},

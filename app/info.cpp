@@ -13,7 +13,7 @@
 #include "core/hdf5.h"
 #include "identification/formats/modal_file.h"
 #include "identification/formats/mode_file.h"
-#include "identification/formats/uff_reader.h"
+#include "identification/formats/uff/uff_reader.h"
 
 namespace wishbone {
 

@@ -10,8 +10,8 @@
 
 #include "app/meta_text.h"
 #include "app/table.h"
-#include "identification/formats/uff_modes.h"
-#include "identification/formats/uff_text.h"
+#include "identification/formats/uff/uff_modes.h"
+#include "identification/formats/uff/uff_text.h"
 
 namespace wishbone {
 

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "identification/formats/uff_file.h"
+#include "identification/formats/uff/uff_file.h"
 
 namespace wishbone {
 

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <set>
 
 #include "core/error.h"
+#include "identification/held_freedoms.h"
 #include "identification/methods/expansion.h"
 #include "identification/methods/model_modes.h"
 #include "identification/methods/rigid_modes.h"
@@ -151,8 +153,8 @@ void warn_of_directions(const ModalData& data, std::vector<std::string>& warning
 
 PreparedStructure prepare(const IdentificationTask& task) {
   PreparedStructure out;
-  out.data = task.measured;
-  out.data.validate();
+  task.measured.validate();
+  out.data = with_held_freedoms(task.measured);
   if (out.data.mode_count() == 0) refuse("there are no modes to start from", "0 modes", "choose some");
   cover(task, out);
   set_up_mass(task, out);

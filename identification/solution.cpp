@@ -81,6 +81,7 @@ void change(const IdentificationTask& task, const PreparedStructure& s, const Re
             const ChangeMatrices& d, const SparseMatrix& D, Solution& out) {
   const Modes set = with_rigid_body_modes(s.rigid, free.modes);
   out.support_ratio = std::max(out.support_ratio, ratio_to_kept_stiffness(d.dK, s.M, set));
+  out.kept_lambda = set.lambda.maxCoeff();
   out.M = s.M + d.dM;
   out.D = D;
   out.modes = change_structure(task.space, set, s.M, d.dM, d.dK);
@@ -124,8 +125,14 @@ void correct(const IdentificationTask& task, const PreparedStructure& s, const R
 
 Solution solve(const IdentificationTask& task, const PreparedStructure& s, const Modes& measured) {
   const ReleasedModes free = free_modes(task, s, measured);
-  Solution out{free.modes,      s.M, SparseMatrix(0, s.M.rows()), free.residual, free.coefficients, 0,
-               free.lost_modes, {}};
+  Solution out;
+  out.modes = free.modes;
+  out.M = s.M;
+  out.D.resize(0, s.M.rows());
+  out.residual = free.residual;
+  out.kept_lambda = measured.lambda.maxCoeff();
+  out.coefficients = free.coefficients;
+  out.lost_modes = free.lost_modes;
   out.support_ratio = ratio_to_kept_stiffness(s.support.K_s, s.M, measured);
   const SparseMatrix no_joints(0, s.M.rows());
   switch (task.goal) {

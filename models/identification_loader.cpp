@@ -6,8 +6,8 @@
 
 #include "core/document.h"
 #include "identification/formats/csv_table.h"
-#include "identification/formats/matrix_market.h"
 #include "identification/formats/modal_file.h"
+#include "identification/held_freedoms.h"
 #include "identification/methods/model_modes.h"
 #include "identification/methods/support_matrices.h"
 #include "models/identification_sections.h"
@@ -17,8 +17,9 @@ namespace {
 
 using namespace identification_sections;
 
-/// A virtual test: modes of the model on the support, rigid-body modes of a free one left out.
-ModalData model_test(const AnalyticalModel& model, const Support& support) {
+/// A virtual test: the lowest modes of the model on the support (all by default), rigid-body modes of a free one left
+/// out.
+ModalData model_test(const AnalyticalModel& model, const Support& support, std::optional<int> count) {
   ModalData data;
   data.node_ids = model.node_ids;
   data.node_position = model.node_position;
@@ -26,10 +27,13 @@ ModalData model_test(const AnalyticalModel& model, const Support& support) {
   data.freedoms = model.freedoms();
   data.lines = model.lines;
   data.support = support;
-  Modes modes = model_modes(model.K, model.M, support_matrices(support, data.freedoms));
-  if (support.springs.empty() && support.joints.empty())
-    modes = {modes.lambda.tail(modes.count() - 6), modes.shapes.rightCols(modes.count() - 6)};
-  if (!(modes.lambda[0] > 0))
+  const int rigid = support.springs.empty() && support.joints.empty() ? 6 : 0;
+  std::optional<Eigen::Index> wanted;
+  if (count) wanted = *count + rigid;
+  Modes modes = model_modes(model.K, model.M, support_matrices(support, data.freedoms), wanted);
+  modes = {modes.lambda.tail(modes.count() - rigid), modes.shapes.rightCols(modes.count() - rigid)};
+  constexpr double kRounding = 1e-12;  // of the largest eigenvalue
+  if (!(modes.lambda[0] > kRounding * modes.lambda[modes.count() - 1]))
     throw InputError({"", "the support leaves rigid-body motion of the model free",
                       fmt::format("lowest eigenvalue {:.3g} rad2/s2", modes.lambda[0]),
                       "hold all six motions"});
@@ -67,8 +71,8 @@ class Reader {
     if (const auto model = keys_.optional("model")) task_.model = read_model(*model, files_);
     if (const auto support = keys_.optional("support")) support_ = read_support(*support);
     task_.measured = read_modes(keys_.required("measured"), support_);
-    if (const auto mass = keys_.optional("mass")) read_mass(*mass);
     read_choices();
+    if (const auto mass = keys_.optional("mass")) read_mass(*mass);
     read_goal();
     if (const auto noise = keys_.optional("noise")) task_.noise = read_noise(*noise);
     if (const auto reference = keys_.optional("reference")) {
@@ -97,18 +101,34 @@ class Reader {
       if (!from.is_word("model"))
         from.refuse("modes can be computed from the model only", "write 'from: model'");
       if (!task_.model) from.refuse("there is no model to take modes from", "add the section 'model'");
-      data = located(from.where(), [&] { return model_test(*task_.model, support.value_or(Support{})); });
+      data = located(from.where(), [&] {
+        return model_test(*task_.model, support.value_or(Support{}), lowest_wanted(keys.optional("modes")));
+      });
     }
     located(value.where(), [&] {
       data.validate();
+      data = with_held_freedoms(data);
       return 0;
     });
     const auto choice = keys.optional("modes");
     return choice ? choose_modes(*choice, data) : data;
   }
 
+  /// The number when the choice of modes is one, so that no others need be computed.
+  std::optional<int> lowest_wanted(const std::optional<Value>& choice) const {
+    if (!choice || choice->is_list() || choice->is_mapping() || choice->is_word("all")) return std::nullopt;
+    return choice->integer(1, static_cast<int>(task_.model->M.rows()));
+  }
+
   void read_mass(const Value& value) {
     const Mapping keys(value, {"file", "matrix", "total", "centre", "inertia"});
+    const bool is_distributed = keys.has("total") || keys.has("centre") || keys.has("inertia");
+    if (keys.has("file") + keys.has("matrix") + is_distributed > 1)
+      keys.refuse("the masses are given in more than one way",
+                  "write 'file', or 'matrix', or 'total', 'centre' and 'inertia'");
+    if (task_.coverage == Coverage::kGuyan || (takes_model_freedoms() && !is_distributed))
+      keys.refuse("with this expansion the masses are those of the model",
+                  "remove 'mass', and give the masses with the model");
     if (const auto file = keys.optional("file")) {
       const auto path = files_.note(*file);
       located(file->where(), [&] {
@@ -116,7 +136,7 @@ class Reader {
         return 0;
       });
     } else if (const auto matrix = keys.optional("matrix")) {
-      task_.mass = read_matrix_market(files_.note(*matrix));
+      task_.mass = read_structure_matrix(*matrix, files_);
       task_.measured.node_mass.resize(0);
     } else {
       task_.rigid_body = read_rigid_body(value);
@@ -156,11 +176,25 @@ class Reader {
     };
     if (const auto support = belongs("new_support", Goal::kHeld, "held"))
       task_.support = read_support(*support);
-    const ModalData& structure = task_.measured;
     if (const auto change = belongs("change", Goal::kChanged, "changed"))
-      task_.change = read_change(*change, structure, files_);
+      task_.change = read_change(*change, structure(), files_);
     if (task_.goal == Goal::kCorrected && !task_.model)
       keys_.refuse("a correction needs a model", "add the section 'model'");
+  }
+
+  /// Shapes are expanded to the freedoms of the model.
+  bool takes_model_freedoms() const {
+    return task_.coverage == Coverage::kSerep || task_.coverage == Coverage::kStatic;
+  }
+
+  /// Nodes and freedoms that the identified modes will have.
+  ModalData structure() const {
+    ModalData data = task_.measured;
+    if (!takes_model_freedoms()) return data;
+    data.node_ids = task_.model->node_ids;
+    data.node_position = task_.model->node_position;
+    data.freedoms = task_.model->freedoms();
+    return data;
   }
 
   /// A model that only served to compute modes need not be carried along.

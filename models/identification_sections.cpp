@@ -79,6 +79,11 @@ std::vector<Support::Mass> read_masses(const Value& list, bool of_any_sign) {
   return masses;
 }
 
+double largest_entry(const SparseMatrix& A) {
+  const SparseMatrix size = A.cwiseAbs();
+  return size.nonZeros() == 0 ? 0 : size.coeffs().maxCoeff();
+}
+
 StructureChange::Spring read_connection(const Value& item, const ModalData& structure) {
   const Mapping keys(item, {"nodes", "stiffness", "direction"});
   const Value nodes = keys.required("nodes");
@@ -110,6 +115,19 @@ std::filesystem::path Files::note(const Value& name) {
   return path;
 }
 
+SparseMatrix read_structure_matrix(const Value& name, Files& files) {
+  const SparseMatrix A = read_matrix_market(files.note(name));
+  if (A.rows() != A.cols())
+    name.refuse("a matrix of masses or stiffnesses must be square",
+                fmt::format("this one has {} x {}", A.rows(), A.cols()));
+  constexpr double kRounding = 1e-6;  // of the largest entry
+  const double asymmetry = largest_entry(A - SparseMatrix(A.transpose()));
+  if (asymmetry > kRounding * largest_entry(A))
+    name.refuse("a matrix of masses or stiffnesses must be symmetric",
+                fmt::format("entries differ from their mirror images by up to {:.3g}", asymmetry));
+  return A;
+}
+
 std::vector<int> read_nodes(const Mapping& keys) {
   const auto one = keys.optional("node");
   const auto several = keys.optional("nodes");
@@ -139,9 +157,17 @@ StructureChange read_change(const Value& value, const ModalData& structure, File
   if (const auto masses = keys.optional("masses")) change.masses = read_masses(*masses, true);
   if (const auto springs = keys.optional("springs"))
     for (const Value& item : springs->list()) change.springs.push_back(read_connection(item, structure));
-  if (const auto matrix = keys.optional("mass_matrix")) change.dM = read_matrix_market(files.note(*matrix));
-  if (const auto matrix = keys.optional("stiffness_matrix"))
-    change.dK = read_matrix_market(files.note(*matrix));
+  const auto read_matrix = [&](const char* key, std::optional<SparseMatrix>& matrix) {
+    const auto name = keys.optional(key);
+    if (!name) return;
+    matrix = read_structure_matrix(*name, files);
+    if (matrix->rows() != structure.freedom_count())
+      name->refuse(fmt::format("it has {} rows for {} freedoms of the modes", matrix->rows(),
+                               structure.freedom_count()),
+                   "give it for the same freedoms in the same order");
+  };
+  read_matrix("mass_matrix", change.dM);
+  read_matrix("stiffness_matrix", change.dK);
   if (change.empty()) keys.refuse("there is no change", "name masses, springs or matrices");
   return change;
 }
@@ -170,9 +196,9 @@ AnalyticalModel read_model(const Value& value, Files& files) {
   AnalyticalModel model;
   model.node_ids = nodes.ids;
   model.node_position = nodes.position;
-  model.K = read_matrix_market(files.note(keys.required("stiffness")));
+  model.K = read_structure_matrix(keys.required("stiffness"), files);
   if (const auto mass = keys.optional("mass")) {
-    model.M = read_matrix_market(files.note(*mass));
+    model.M = read_structure_matrix(*mass, files);
   } else if (nodes.mass.size() > 0) {
     model.node_mass = nodes.mass;
     model.M = lumped_mass_matrix(nodes.mass);
@@ -183,7 +209,7 @@ AnalyticalModel read_model(const Value& value, Files& files) {
   const Eigen::Index n = model.node_position.size();
   for (const auto& [key, matrix] :
        {std::pair<const char*, const SparseMatrix*>{"stiffness", &model.K}, {"mass", &model.M}})
-    if (matrix->rows() != n || matrix->cols() != n)
+    if (matrix->rows() != n)
       keys.refuse(fmt::format("{} nodes need a {} matrix of {} rows, three a node", nodes.ids.size(), key, n),
                   fmt::format("this one has {} x {}", matrix->rows(), matrix->cols()));
   return model;

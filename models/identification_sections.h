@@ -25,6 +25,9 @@ class Files {
 /// `node: N` or `nodes: [N, ...]` of a mapping that has one of the two.
 std::vector<int> read_nodes(const Mapping& keys);
 
+/// A MatrixMarket file with a symmetric matrix.
+SparseMatrix read_structure_matrix(const Value& name, Files& files);
+
 Support read_support(const Value& value);
 /// Positions are those of the structure that is changed: springs between nodes act along their connection.
 StructureChange read_change(const Value& value, const ModalData& structure, Files& files);

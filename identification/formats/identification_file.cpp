@@ -29,6 +29,8 @@ void write_judgement(hdf5::Group group, const Judgement& judgement) {
   write(group, "input_frequency", judgement.input_hz, "Hz", "frequencies of the modes that were measured");
   write(group, "residual", judgement.residual, "1",
         "bound on the relative error of omega^2 by what the measured set leaves open; NaN: none");
+  write(group, "error_estimate", judgement.error_estimate, "1",
+        "estimated relative error of the frequencies by what the measured set leaves open; NaN: none");
   write(group, "frequency_std", judgement.frequency_std_hz, "Hz",
         "standard deviation of the frequencies under the given measurement noise; NaN: mode not told from "
         "others");

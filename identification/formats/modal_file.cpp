@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "identification/formats/csv_modal_data.h"
 #include "identification/formats/mode_file.h"
-#include "identification/formats/uff_modal_data.h"
+#include "identification/formats/uff/uff_modal_data.h"
 
 namespace wishbone {
 namespace {

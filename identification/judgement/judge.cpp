@@ -9,7 +9,9 @@
 
 #include "core/error.h"
 #include "identification/judgement/mac.h"
+#include "identification/judgement/reference.h"
 #include "identification/methods/clean_up.h"
+#include "identification/methods/residual.h"
 #include "identification/methods/rigid_modes.h"
 
 namespace wishbone {
@@ -19,35 +21,6 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 VectorX hertz(const VectorX& omega) {
   return omega / (2 * std::numbers::pi);
-}
-
-/// Rows of two sets that belong to the same freedoms.
-std::pair<std::vector<int>, std::vector<int>> common_rows(const ModalData& a, const ModalData& b) {
-  std::pair<std::vector<int>, std::vector<int>> rows;
-  for (int i = 0; i < a.freedom_count(); ++i)
-    if (const auto j = b.row(a.freedoms[static_cast<std::size_t>(i)])) {
-      rows.first.push_back(i);
-      rows.second.push_back(*j);
-    }
-  return rows;
-}
-
-ReferenceComparison compare(const ModalData& modes, const ModalData& reference, const std::string& name) {
-  const auto [rows, reference_rows] = common_rows(modes, reference);
-  if (rows.empty())
-    throw InputError({"reference", "it has no freedom in common with the identified modes", name,
-                      "number its nodes as those of the measurement"});
-  ReferenceComparison comparison;
-  comparison.name = name;
-  comparison.reference_hz = hertz(reference.omega);
-  comparison.mac =
-      modal_assurance(modes.shapes(rows, Eigen::all), reference.shapes(reference_rows, Eigen::all));
-  comparison.partner = partners(comparison.mac);
-  comparison.frequency_error = VectorX::Constant(modes.mode_count(), kNaN);
-  for (int j = 0; j < modes.mode_count(); ++j)
-    if (const int k = comparison.partner[static_cast<std::size_t>(j)]; k >= 0)
-      comparison.frequency_error[j] = modes.omega[j] / reference.omega[k] - 1;
-  return comparison;
 }
 
 double condition_number(const MatrixX& symmetric) {
@@ -99,7 +72,7 @@ void warn_of_data(const PreparedStructure& s, const Modes& unit, Judgement& judg
 }
 
 void warn_of_result(const Solution& solution, Judgement& judgement) {
-  constexpr double kStiffSupport = 1, kLargeResidual = 0.2;
+  constexpr double kStiffSupport = 1, kLargeError = 0.02;
   if (solution.support_ratio > kStiffSupport)
     judgement.warnings.push_back(fmt::format(
         "the kept modes cannot carry the support: it is {:.2g} times as stiff as the stiffest of them; "
@@ -111,12 +84,12 @@ void warn_of_result(const Solution& solution, Judgement& judgement) {
         "modes that strain the support are too high by an unknown amount",
         solution.lost_modes));
   std::vector<int> poor;
-  for (Eigen::Index j = 0; j < solution.residual.size(); ++j)
-    if (solution.residual[j] > kLargeResidual) poor.push_back(static_cast<int>(j) + 1);
+  for (Eigen::Index j = 0; j < judgement.error_estimate.size(); ++j)
+    if (judgement.error_estimate[j] > kLargeError) poor.push_back(static_cast<int>(j) + 1);
   if (!poor.empty())
-    judgement.warnings.push_back(
-        fmt::format("the measured set leaves more than {:.0f} % of the forces of mode{} {} open",
-                    100 * kLargeResidual, poor.size() > 1 ? "s" : "", mode_list(poor)));
+    judgement.warnings.push_back(fmt::format(
+        "the measured set is too small for mode{} {}: estimated errors of the frequency above {:.0f} %",
+        poor.size() > 1 ? "s" : "", mode_list(poor), 100 * kLargeError));
 }
 
 void judge_noise(const IdentificationTask& task, const PreparedStructure& s, const Modes& identified,
@@ -146,6 +119,8 @@ Judgement judge(const IdentificationTask& task, const PreparedStructure& s, cons
   judgement.input_hz = hertz(s.data.omega);
   judgement.frequency_hz = hertz(modes.omega);
   judgement.residual = solution.residual;
+  judgement.error_estimate =
+      frequency_error_estimate(solution.modes.lambda, solution.residual, solution.kept_lambda);
   judgement.auto_mac = modal_assurance(modes.shapes, modes.shapes);
   judgement.input_mac = modal_assurance(modes.shapes, s.data.shapes);
   judgement.lost_modes = solution.lost_modes;
@@ -165,7 +140,8 @@ Judgement judge(const IdentificationTask& task, const PreparedStructure& s, cons
   warn_of_data(s, unit, judgement);
   warn_of_result(solution, judgement);
   judge_noise(task, s, solution.modes, judgement);
-  if (task.reference) judgement.reference = compare(modes, *task.reference, task.reference_name);
+  if (task.reference)
+    judgement.reference = compare_with_reference(modes, *task.reference, task.reference_name);
   return judgement;
 }
 

@@ -25,6 +25,7 @@ struct Judgement {
   VectorX frequency_hz;  ///< m, identified
   VectorX
       residual;  ///< m, bound on |lambda - lambda_true| / lambda by what the kept set leaves; NaN: no bound
+  VectorX error_estimate;    ///< m, estimated relative error of the frequency by what was left out; NaN: none
   VectorX frequency_std_hz;  ///< m, standard deviation under the given measurement noise; empty: none given
   MatrixX auto_mac;          ///< m x m, identified modes among each other
   MatrixX input_mac;         ///< m x (input modes), which measured mode became which

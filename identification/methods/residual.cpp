@@ -21,4 +21,14 @@ VectorX relative_residuals(const Modes& modes, const MatrixX& K_shapes, const Sp
       modes.lambda);
 }
 
+VectorX frequency_error_estimate(const VectorX& lambda, const VectorX& residual, double lambda_kept) {
+  VectorX estimate(lambda.size());
+  for (Eigen::Index j = 0; j < lambda.size(); ++j) {
+    const double rho = residual[j], gap = lambda_kept - lambda[j];
+    const bool is_below = rho * lambda[j] < gap;  // else the second order says no more than the first
+    estimate[j] = (is_below ? rho * rho * lambda[j] / gap : rho) / 2;
+  }
+  return estimate;
+}
+
 }  // namespace wishbone

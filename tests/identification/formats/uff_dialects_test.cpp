@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "identification/formats/uff_reader.h"
-#include "identification/formats/uff_text.h"
+#include "identification/formats/uff/uff_reader.h"
+#include "identification/formats/uff/uff_text.h"
 #include "text_files.h"
 
 /// Ways of writing one and the same contents that programs in the field have.

@@ -7,8 +7,8 @@
 #include <limits>
 #include <vector>
 
-#include "identification/formats/uff_elements.h"
-#include "identification/formats/uff_reader.h"
+#include "identification/formats/uff/uff_elements.h"
+#include "identification/formats/uff/uff_reader.h"
 
 /// Files of other programs, checked against what their text says.
 namespace wishbone {

@@ -9,8 +9,8 @@
 #include <string_view>
 
 #include "core/error.h"
-#include "identification/formats/uff_modal_data.h"
-#include "identification/formats/uff_reader.h"
+#include "identification/formats/uff/uff_modal_data.h"
+#include "identification/formats/uff/uff_reader.h"
 #include "text_files.h"
 
 namespace wishbone {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "identification/formats/uff_reader.h"
+#include "identification/formats/uff/uff_reader.h"
 #include "temporary_folder.h"
 
 namespace wishbone {

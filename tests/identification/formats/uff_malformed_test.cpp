@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "identification/formats/uff_reader.h"
+#include "identification/formats/uff/uff_reader.h"
 #include "text_files.h"
 
 namespace wishbone {

@@ -1,4 +1,4 @@
-#include "identification/formats/uff_modal_data.h"
+#include "identification/formats/uff/uff_modal_data.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/error.h"
-#include "identification/formats/uff_reader.h"
-#include "identification/formats/uff_writer.h"
+#include "identification/formats/uff/uff_reader.h"
+#include "identification/formats/uff/uff_writer.h"
 #include "text_files.h"
 
 namespace wishbone {

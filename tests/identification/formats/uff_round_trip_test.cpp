@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/error.h"
-#include "identification/formats/uff_reader.h"
-#include "identification/formats/uff_writer.h"
+#include "identification/formats/uff/uff_reader.h"
+#include "identification/formats/uff/uff_writer.h"
 #include "text_files.h"
 
 /// What is written comes back, to the digits that the standard's formats keep.

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "identification/methods/joint_support.h"
+#include "identification/methods/residual.h"
 #include "identification/methods/rigid_modes.h"
 #include "identification/methods/spring_support.h"
 #include "identification/methods/support_matrices.h"
@@ -119,6 +120,27 @@ TEST(ReleasedModes, OfIncompleteSetsLieAboveTheTruthAndWithinTheBound) {
         EXPECT_LE(nearest, (1e-9 + released.residual[j]) * released.modes.lambda[j]);
       }
       expect_orthonormal(released.modes, s);
+    }
+}
+
+TEST(ReleasedModes, OfIncompleteSetsHaveErrorsOfTheEstimatedSize) {
+  // for modes well below the last one kept the second-order estimate is right within a factor of five
+  const TestStructure s = chassis();
+  const VectorX truth = s.elastic().frequency_hz();
+  for (const Support& support :
+       {springs_at({1, 2, 17, 18}, 1e6), springs_at({1, 2, 17, 18}, 1e7), chassis_joints()})
+    for (const int kept : {20, 27}) {
+      const SupportMatrices held = matrices(support, s);
+      const Modes given = modes_on(s, held).lowest(kept);
+      const ReleasedModes released = release(given, s.M, held, s.rigid);
+      const VectorX estimate =
+          frequency_error_estimate(released.modes.lambda, released.residual, given.lambda[kept - 1]);
+      const VectorX found = released.modes.frequency_hz();
+      for (Eigen::Index j = 0; j < 4; ++j) {
+        const double error = found[j] / truth[j] - 1;
+        EXPECT_LE(error, 5 * estimate[j]) << kept << " modes, mode " << j;
+        EXPECT_GE(error, estimate[j] / 5) << kept << " modes, mode " << j;
+      }
     }
 }
 

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+
+#include "identification/formats/uff/uff_file.h"
+
+namespace wishbone {
+
+/// Writes a Universal File in the formats of the standard, so that other programs can read it: datasets 151,
+/// 164, 18, 2411, 2412, 82, 55 or 2414 (what each shape says), 58 or 58b (what each function says). `unused`
+/// is not written.
+///
+/// The standard's formats round: nodes keep 17 digits and binary functions all bits, but nodal shapes and
+/// frequencies (6E13.5), coordinate systems, and functions in single precision as text keep 6 digits,
+/// functions in double precision as text 13. Dataset 2414 is no more precise than 55.
+///
+/// Throws InputError when sizes do not fit together or a text has a line break; NumericsError when the file
+/// cannot be written (folder missing, disk full).
+void write_uff(const std::filesystem::path& path, const UffFile& file);
+
+}  // namespace wishbone
