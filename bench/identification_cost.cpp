@@ -1,6 +1,6 @@
-// Cost of identification over the size of the structure: CPU seconds, the smallest of several repetitions, and
-// memory. Prints a Markdown table. Memory is what the resident set grows at its peak (VmHWM) over the input, in
-// a forked child, whose peak starts from what it inherits.
+// Cost of identification over the size of the structure: CPU seconds, the smallest of several repetitions,
+// and memory. Prints a Markdown table. Memory is what the resident set grows at its peak (VmHWM) over the input,
+// in a forked child, whose peak starts from what it inherits.
 //
 //   identification_cost [N]     complete sets up to N freedoms, 600 unless given
 
@@ -14,6 +14,7 @@
 #include <ctime>
 #include <fstream>
 #include <functional>
+#include <stdexcept>
 #include <string>
 
 #include "identification/elements/hexahedral_mesh.h"
@@ -87,23 +88,24 @@ double own_memory(const std::string& name) {
   return 0;
 }
 
+/// Throws when the child does not live to tell.
 double peak_megabytes(const std::function<void()>& work) {
   malloc_trim(0);  // memory that was freed before must not be taken for room
-  int pipe_ends[2];
-  if (pipe(pipe_ends) != 0) return 0;
+  int ends[2];
+  if (pipe(ends) != 0) throw std::runtime_error("there is no pipe to be had");
   const pid_t child = fork();
   if (child == 0) {
     const double before = own_memory("VmRSS");
     work();
     const double growth = own_memory("VmHWM") - before;
-    const bool written = write(pipe_ends[1], &growth, sizeof growth) == sizeof growth;
-    _exit(written ? 0 : 1);
+    _exit(write(ends[1], &growth, sizeof growth) == sizeof growth ? 0 : 1);
   }
+  close(ends[1]);  // or reading would wait for this process too
   double growth = 0;
-  if (read(pipe_ends[0], &growth, sizeof growth) != sizeof growth) growth = 0;
+  const bool told = read(ends[0], &growth, sizeof growth) == sizeof growth;
+  close(ends[0]);
   waitpid(child, nullptr, 0);
-  close(pipe_ends[0]);
-  close(pipe_ends[1]);
+  if (!told) throw std::runtime_error("the measured process died");
   return growth;
 }
 
