@@ -120,7 +120,7 @@ class Reader {
       if (!task_.model) from.refuse("there is no model to take modes from", "add the section 'model'");
       data = located(from.where(), [&] { return model_test(*task_.model, support.value_or(Support{})); });
     }
-    located(value.where(), [&] {
+    within(value.where(), [&] {
       data.validate();
       list_held_freedoms(data);
       return 0;
