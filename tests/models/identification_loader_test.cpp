@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "identification/formats/csv_modal_data.h"
+#include "models/scene_loader.h"
 #include "text_files.h"
 
 namespace wishbone {
@@ -50,8 +51,9 @@ TEST_F(IdentificationFiles, TakeMassesFromTheModelThatTheyExpandTo) {
   for (const char* expansion : {"serep", "static", "guyan"})
     EXPECT_THAT(refusal(std::string("  mass: {file: m.csv}\n  expansion: ") + expansion + "\n"),
                 HasSubstr("with this expansion the masses are those of the model"));
-  EXPECT_EQ(refusal("  mass: {total: 998.4 kg, centre: [0, 0, 0], inertia: [53, 505, 505]}\n  expansion: serep\n"),
-            "nothing was thrown");
+  EXPECT_EQ(
+      refusal("  mass: {total: 998.4 kg, centre: [0, 0, 0], inertia: [53, 505, 505]}\n  expansion: serep\n"),
+      "nothing was thrown");
 }
 
 TEST_F(IdentificationFiles, NameMatricesThatFitTheModes) {
@@ -68,20 +70,24 @@ TEST_F(IdentificationFiles, NameMatricesThatFitTheModes) {
 
 TEST_F(IdentificationFiles, RefuseAVirtualTestWhoseSupportHoldsNotEverything) {
   for (const char* stiffness : {"[0, 0, 4e4]", "[0, 0, 4e5]", "[3e3, 0, 7e4]"})
-    EXPECT_THAT(refusal(std::string("  support: {springs: [{nodes: [1, 2, 17, 18], stiffness: ") + stiffness + "}]}\n"),
+    EXPECT_THAT(refusal(std::string("  support: {springs: [{nodes: [1, 2, 17, 18], stiffness: ") + stiffness +
+                        "}]}\n"),
                 HasSubstr("the support leaves rigid-body motion of the model free"));
 }
 
 TEST_F(IdentificationFiles, RefuseScatterThatNoModeSurvives) {
-  EXPECT_THAT(refusal("  noise: {shapes: 10 %}\n"), HasSubstr("identification.noise.shapes: error: shapes that scatter"));
+  EXPECT_THAT(refusal("  noise: {shapes: 10 %}\n"),
+              HasSubstr("identification.noise.shapes: error: shapes that scatter"));
 }
 
 TEST_F(IdentificationFiles, TellWhereANodeOfTheSupportIsMissing) {
   write_csv_modal_data(csv_modal_files(files_ / "m.csv"), load_identification(write(kSupport)).task.measured);
-  const auto file = files_.write("b.yaml", "wishbone: 1\nidentification:\n  measured: {file: m.csv}\n"
-                                           "  support: {joints: [{node: 99, axes: z}]}\n");
-  EXPECT_THAT(files_.relative(message_of<InputError>([&] { load_identification(file); })),
-              HasSubstr("b.yaml:3:3: identification.measured: modal data: error: a support joint names a node"));
+  const auto file = files_.write("b.yaml",
+                                 "wishbone: 1\nidentification:\n  measured: {file: m.csv}\n"
+                                 "  support: {joints: [{node: 99, axes: z}]}\n");
+  EXPECT_THAT(
+      files_.relative(message_of<InputError>([&] { load_identification(file); })),
+      HasSubstr("b.yaml:3:3: identification.measured: modal data: error: a support joint names a node"));
 }
 
 TEST_F(IdentificationFiles, NeedNoRowsOfFreedomsThatJointsHold) {
@@ -93,7 +99,8 @@ TEST_F(IdentificationFiles, NeedNoRowsOfFreedomsThatJointsHold) {
   ASSERT_EQ(rows.size(), 54u);
   short_of_rows.shapes = MatrixX(full.measured.shapes(rows, Eigen::all));
   short_of_rows.freedoms.clear();
-  for (const int i : rows) short_of_rows.freedoms.push_back(full.measured.freedoms[static_cast<std::size_t>(i)]);
+  for (const int i : rows)
+    short_of_rows.freedoms.push_back(full.measured.freedoms[static_cast<std::size_t>(i)]);
   write_csv_modal_data(csv_modal_files(files_ / "m.csv"), short_of_rows);
 
   const auto file = files_.write(
@@ -106,7 +113,8 @@ TEST_F(IdentificationFiles, NeedNoRowsOfFreedomsThatJointsHold) {
 TEST_F(IdentificationFiles, ChangeNodesThatOnlyTheModelHas) {
   // a spring to the node that the test did not see is a change all the same
   const std::string change =
-      "  find: changed\n  change: {springs: [{nodes: [9, 11], stiffness: 200 kN/m}], masses: [{node: 10, mass: 9 kg}]}\n";
+      "  find: changed\n  change: {springs: [{nodes: [9, 11], stiffness: 200 kN/m}], masses: [{node: 10, "
+      "mass: 9 kg}]}\n";
   const Identification direct = identified(change);
   ModalData seen = load_identification(write("")).task.measured.with_modes({0, 1, 2, 3});
   std::vector<int> rows;
@@ -125,6 +133,25 @@ TEST_F(IdentificationFiles, ChangeNodesThatOnlyTheModelHas) {
     EXPECT_GE(expanded.modes.omega[j], (1 - 1e-9) * direct.modes.omega[j]);
     EXPECT_NEAR(expanded.modes.omega[j], direct.modes.omega[j], 0.02 * direct.modes.omega[j]);
   }
+}
+
+TEST_F(IdentificationFiles, GiveABodyItsNodesWhateverBlockStandsBeside) {
+  const auto measured = std::filesystem::canonical(std::filesystem::path(WISHBONE_SCENES) / ".." /
+                                                   "identification" / "examples");
+  const auto file =
+      files_.write("scene.yaml", R"(wishbone: 1
+bodies:
+  frame:
+    form: modal
+    position: [0, 0, 0]
+    flexible:
+      block: {size: [9, 0.4, 0.4], elements: [4, 1, 1]}
+      material: {young: 210 MPa, poisson: 0.3, density: 2600}
+      modes: {measured: {file: )" + (measured / "chassis_test.unv").string() +
+                                     "}, mass: {file: " + (measured / "chassis_masses.csv").string() +
+                                     "}}\n");
+  const Scene scene = load_scene(file);
+  EXPECT_LT((scene.bodies[0].flexible->node_position.col(0) - Vector3(-1.2, -0.2, -0.2)).norm(), 1e-12);
 }
 
 /// Largest frequency error of the `count` lowest modes of an example against its model.
