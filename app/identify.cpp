@@ -27,7 +27,7 @@ struct Options {
   bool json = false;
 };
 
-/// Names of the files of the corrected matrices.
+/// Names of the files of the matrices.
 std::string mass_file(const std::string& prefix) {
   return prefix + "_M.mtx";
 }
@@ -54,16 +54,14 @@ void write_outputs(const Options& options, const Identification& result) {
   const auto symmetric = [](const MatrixX& A) -> SparseMatrix {
     return MatrixX((A + A.transpose()) / 2).sparseView();
   };
-  write_matrix_market(mass_file(*options.matrices), symmetric(result.corrected->M), true);
-  write_matrix_market(stiffness_file(*options.matrices), symmetric(result.corrected->K), true);
+  const CorrectedModel matrices = identified_matrices(result);
+  write_matrix_market(mass_file(*options.matrices), symmetric(matrices.M), true);
+  write_matrix_market(stiffness_file(*options.matrices), symmetric(matrices.K), true);
 }
 
 ExitCode run(const Options& options) {
   const LoadedIdentification loaded = load_identification(options.input, options.set);
   check_outputs(options, loaded.files);
-  if (options.matrices && loaded.task.goal != Goal::kCorrected)
-    throw InputError({"--matrices", "there are matrices only of a corrected model", *options.matrices,
-                      "write 'find: corrected' in the file, or leave the option out"});
   const Identification result = identify(loaded.task);
   write_outputs(options, result);
   if (options.json)
@@ -87,8 +85,10 @@ void add_identify(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--html", options->html, "write a page with tables and pictures to this file");
   command->add_option("--pictures", options->pictures,
                       "write mode shapes and MAC matrices as SVG into this folder");
-  command->add_option("--matrices", options->matrices,
-                      "write a corrected model to PREFIX_M.mtx and PREFIX_K.mtx (MatrixMarket)");
+  command->add_option(
+      "--matrices", options->matrices,
+      "write mass and stiffness to PREFIX_M.mtx and PREFIX_K.mtx (MatrixMarket): of the corrected model,\n"
+      "else what the modes stand for");
   command->add_flag("--json", options->json, "print JSON");
   command->footer(
       "What the file may say: docs/identification.md.\n\n"

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/version.h"
 #include "identification/judgement/judge.h"
+#include "identification/methods/stiffness_from_modes.h"
 #include "identification/solution.h"
 
 namespace wishbone {
@@ -83,6 +84,12 @@ ModalData as_modal_data(const IdentificationTask& task, const PreparedStructure&
 
 }  // namespace
 
+CorrectedModel identified_matrices(const Identification& identification) {
+  if (identification.corrected) return *identification.corrected;
+  const Modes modes{identification.modes.omega.cwiseAbs2(), identification.modes.shapes};
+  return {MatrixX(identification.M), stiffness_from_modes(modes, identification.M)};
+}
+
 Identification identify(const IdentificationTask& task) {
   const PreparedStructure structure = prepare(task);
   Solution solution = solve(task, structure, structure.measured());
@@ -92,6 +99,7 @@ Identification identify(const IdentificationTask& task) {
   result.modes = as_modal_data(task, structure, solution);
   result.judgement = judge(task, structure, solution, result.modes);
   result.judgement.notes.push_back(result.modes.provenance.back());
+  result.M = std::move(solution.M);
   result.corrected = std::move(solution.corrected);
   return result;
 }

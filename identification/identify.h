@@ -85,8 +85,13 @@ struct Identification {
   ModalData input;  ///< as used: chosen modes, real, expanded or reduced
   ModalData modes;  ///< the identified ones, of unit modal mass
   Judgement judgement;
+  SparseMatrix M;                           ///< mass over the freedoms of the modes
   std::optional<CorrectedModel> corrected;  ///< kCorrected
 };
+
+/// Mass and stiffness matrix that an identification comes to: the corrected model, else M and the stiffness K* that the
+/// modes stand for [2.11, 2.12]. Dense.
+CorrectedModel identified_matrices(const Identification& identification);
 
 /// Carries out the task.
 /// @throws InputError when the data cannot give what is looked for: with what is missing

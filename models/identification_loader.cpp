@@ -105,7 +105,7 @@ class Reader {
         return model_test(*task_.model, support.value_or(Support{}), lowest_wanted(keys.optional("modes")));
       });
     }
-    located(value.where(), [&] {
+    within(value.where(), [&] {
       data.validate();
       data = with_held_freedoms(data);
       return 0;

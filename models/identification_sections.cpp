@@ -224,6 +224,10 @@ MeasurementNoise read_noise(const Value& value) {
   if (const auto samples = keys.optional("samples")) noise.samples = samples->integer(2, 1000000);
   if (const auto seed = keys.optional("seed"))
     noise.seed = static_cast<unsigned>(seed->integer(0, kLargestId));
+  constexpr double kMostShapeScatter = 0.1;  // beyond it no motion is told from rigid-body motion
+  if (noise.shape >= kMostShapeScatter)
+    keys.required("shapes").refuse("shapes that scatter this much tell nothing of elastic modes",
+                                   "give less than 10 %");
   if (noise.frequency == 0 && noise.shape == 0)
     keys.refuse("there is no noise", "give 'frequencies' or 'shapes' a standard deviation, as '0.1 %'");
   return noise;

@@ -51,7 +51,7 @@ void take_lowest_modes(const Value& modes, const std::optional<Value>& damping, 
   if (damping) flexible.damping = read_damping(*damping, flexible.modes);
 }
 
-/// The modes are identified; without a block the nodes are those of the identification too.
+/// The modes are identified, and the nodes are those of the identification; a block is its model only.
 void take_identification(const Value& section, Scene::Flexible& flexible, Scene& scene) {
   std::optional<AnalyticalModel> model;
   if (flexible.block) {
@@ -59,13 +59,12 @@ void take_identification(const Value& section, Scene::Flexible& flexible, Scene&
     model = identification_sections::block_model(b.size, b.elements, b.young, b.poisson, b.density);
   }
   LoadedIdentification loaded = read_identification(section, model ? &*model : nullptr);
-  if (loaded.task.goal == Goal::kHeld)
-    section.refuse("a flexible body needs free-free modes", "write 'find: free', 'changed' or 'corrected'");
-  if (!flexible.block) {
-    const BodyNodes nodes = within(section.where(), [&] { return body_nodes(loaded.task); });
-    flexible.node_ids = nodes.ids;
-    flexible.node_position = nodes.position;
-  }
+  if (loaded.task.goal == Goal::kHeld || loaded.task.goal == Goal::kCorrected)
+    section.refuse("a flexible body needs free-free modes and lumped masses",
+                   "write 'find: free' or 'changed'");
+  const BodyNodes nodes = within(section.where(), [&] { return body_nodes(loaded.task); });
+  flexible.node_ids = nodes.ids;
+  flexible.node_position = nodes.position;
   scene.data_files.insert(scene.data_files.end(), loaded.files.begin(), loaded.files.end());
   flexible.identification = std::make_shared<const IdentificationTask>(std::move(loaded.task));
 }

@@ -56,12 +56,24 @@ std::string mode_list(const std::vector<int>& modes) {
 }
 
 void warn_of_data(const PreparedStructure& s, const Modes& unit, Judgement& judgement) {
-  constexpr double kLargeError = 0.1, kLargeImbalance = 0.05;
+  constexpr double kLargeError = 0.1, kLargeImbalance = 0.05, kMostlyRigid = 0.5;
   if (judgement.input_orthogonality_error > kLargeError)
     judgement.warnings.push_back(fmt::format(
         "the measured modes are not orthogonal in the given masses: largest product {:.2f}; check the "
         "masses, the numbering and the directions",
         judgement.input_orthogonality_error));
+  if (s.data.support.empty()) {
+    std::vector<int> rigid;
+    const VectorX share = rigid_share(s.rigid, s.data.shapes, s.M);
+    for (Eigen::Index j = 0; j < share.size(); ++j)
+      if (share[j] > kMostlyRigid) rigid.push_back(static_cast<int>(j) + 1);
+    if (!rigid.empty())
+      judgement.warnings.push_back(
+          fmt::format("mode{} {} {} mostly rigid-body motion, as on a support, and none is named: name it, or leave "
+                      "the mode{} out",
+                      rigid.size() > 1 ? "s" : "", mode_list(rigid), rigid.size() > 1 ? "are" : "is",
+                      rigid.size() > 1 ? "s" : ""));
+  }
   const bool on_springs_alone = s.support.D.rows() == 0 && s.support.K_s.nonZeros() > 0;
   if (!on_springs_alone) return;
   if (const double error = imbalance(s, unit); error > kLargeImbalance)
@@ -72,7 +84,7 @@ void warn_of_data(const PreparedStructure& s, const Modes& unit, Judgement& judg
 }
 
 void warn_of_result(const Solution& solution, Judgement& judgement) {
-  constexpr double kStiffSupport = 1, kLargeError = 0.02;
+  constexpr double kStiffSupport = 0.3, kLargeError = 0.02;
   if (solution.support_ratio > kStiffSupport)
     judgement.warnings.push_back(fmt::format(
         "the kept modes cannot carry the support: it is {:.2g} times as stiff as the stiffest of them; "

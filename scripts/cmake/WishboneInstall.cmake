@@ -8,9 +8,11 @@ foreach(room IN ITEMS core bodies joints forces identification solver models)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room}
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/wishbone FILES_MATCHING PATTERN "*.h"
     # private: the first needs the headers of SUNDIALS, the second is half of the scene loader
-    PATTERN sundials.h EXCLUDE PATTERN scene_sections.h EXCLUDE PATTERN scenes EXCLUDE)
+    PATTERN sundials.h EXCLUDE PATTERN scene_sections.h EXCLUDE PATTERN scenes EXCLUDE
+    REGEX models/identification$ EXCLUDE)
 endforeach()
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/models/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/wishbone)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/models/scenes ${PROJECT_SOURCE_DIR}/models/identification
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/wishbone)
 
 set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/wishbone)
 install(EXPORT wishboneTargets NAMESPACE wishbone:: DESTINATION ${config_dir})

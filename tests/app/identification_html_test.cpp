@@ -67,6 +67,13 @@ TEST(IdentificationHtml, ShowsWhatWasIdentifiedFromWhatAndHowGoodItIs) {
   EXPECT_EQ(page, identification_html(identification));
 }
 
+TEST(IdentificationHtml, SaysWhatTheIdentifiedModesAreHeldBy) {
+  Identification identification = chassis_identification(3);
+  identification.modes.support.joints = {{1, Vector3::UnitZ()}};
+  EXPECT_THAT(identification_html(identification),
+              HasSubstr("3 modes of the structure held by 1 joint, identified from"));
+}
+
 TEST(IdentificationHtml, EscapesEveryTextOfTheUser) {
   Identification identification = chassis_identification(3);
   const std::string evil = "</title><script>alert(1)</script>";

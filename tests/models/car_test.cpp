@@ -180,6 +180,17 @@ TEST(Car, RigidAndFlexibleChassisDifferVisibly) {
   EXPECT_GT(difference(flexible, rigid, "/vehicle/yaw_rate"), 0.1);
 }
 
+TEST(Car, ChassisOfAModalTestIsNearToItsModelWithAsManyModes) {
+  // what the test adds is small beside what leaving out 30 of the 54 modes changes
+  const Result test = run({"impulse_steer", {"chassis=test"}, 0.6, 1e-6});
+  const Result as_many = run({"impulse_steer", {"chassis=modal", "modes=24"}, 0.6, 1e-6});
+  const Result all = run({"impulse_steer", {"chassis=modal"}, 0.6, 1e-6});
+  ASSERT_EQ(test["/flexible/chassis/modal_coordinates"].cols(), 24);
+  for (const char* signal : {"/vehicle/lateral_position", "/vehicle/yaw_rate", "/vehicle/roll_rate",
+                             "/vehicle/side_slip", "/flexible/chassis/deflection"})
+    EXPECT_LT(difference(test, as_many, signal), 0.2 * difference(all, as_many, signal)) << signal;
+}
+
 TEST(Car, StructuralDampingCalmsTheChassis) {
   const auto late_swing = [](const Result& r) {
     // what is left besides ringing follows the bounce of the car, a tenth of the sag

@@ -175,11 +175,15 @@ struct UffUnused {
   std::string why;
 };
 
+/// Which dataset nodes are written as: 2411 keeps 17 digits of positions, 15 keeps 6.
+enum class UffNodeDataset { k2411, k15 };
+
 struct UffFile {
   std::optional<UffHeader> header;
   std::optional<UffUnits> units;
   std::vector<UffCoordinateSystem> coordinate_systems;  ///< each number once
   std::vector<UffNode> nodes;                           ///< each number once
+  UffNodeDataset node_dataset = UffNodeDataset::k2411;  ///< for the writer; readers take either and leave it
   std::vector<UffTraceLine> trace_lines;
   std::vector<UffElement> elements;
   std::vector<UffShape> shapes;

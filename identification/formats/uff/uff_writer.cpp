@@ -46,12 +46,20 @@ void write(UffOutput& out, const std::vector<UffCoordinateSystem>& systems) {
   out.end_dataset();
 }
 
-void write(UffOutput& out, const std::vector<UffNode>& nodes) {
+void write(UffOutput& out, const std::vector<UffNode>& nodes, UffNodeDataset dataset) {
   if (nodes.empty()) return;
-  out.begin_dataset("2411");
+  const bool is_15 = dataset == UffNodeDataset::k15;
+  out.begin_dataset(is_15 ? "15" : "2411");
   for (const UffNode& node : nodes) {
-    out.integers(std::array{node.number, node.definition_system, node.displacement_system, node.color}, 4);
-    out.line(d25(node.position.x()) + d25(node.position.y()) + d25(node.position.z()));
+    const std::string numbers = fmt::format("{:10}{:10}{:10}{:10}", node.number, node.definition_system,
+                                            node.displacement_system, node.color);
+    const Vector3& p = node.position;
+    if (is_15) {
+      out.line(numbers + e13(p.x()) + e13(p.y()) + e13(p.z()));
+      continue;
+    }
+    out.line(numbers);
+    out.line(d25(p.x()) + d25(p.y()) + d25(p.z()));
   }
   out.end_dataset();
 }
@@ -163,7 +171,7 @@ void write_uff(const std::filesystem::path& path, const UffFile& file) {
   if (file.header) write(out, *file.header);
   if (file.units) write(out, *file.units);
   write(out, file.coordinate_systems);
-  write(out, file.nodes);
+  write(out, file.nodes, file.node_dataset);
   write(out, file.elements);
   for (const UffTraceLine& trace : file.trace_lines) write(out, trace);
   for (const UffShape& shape : file.shapes)

@@ -66,6 +66,21 @@ TEST(UffRoundTrip, OfNodesElementsAndLinesIsExact) {
   EXPECT_EQ(back.trace_lines[0].nodes, file.trace_lines[0].nodes);
 }
 
+TEST(UffRoundTrip, OfNodesInDataset15KeepsSixDigits) {
+  UffFile file;
+  file.nodes = {{7, 0, 3, 11, {1.0 / 3, -2e-17, 12345.678}}, {8, 1, 2, 4, {0, -1e5, 3e-4}}};
+  file.node_dataset = UffNodeDataset::k15;
+  const UffFile back = written_and_read(file);
+  ASSERT_EQ(back.nodes.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(back.nodes[i].number, file.nodes[i].number);
+    EXPECT_EQ(back.nodes[i].definition_system, file.nodes[i].definition_system);
+    EXPECT_EQ(back.nodes[i].displacement_system, file.nodes[i].displacement_system);
+    for (int axis = 0; axis < 3; ++axis)
+      expect_six_digits(back.nodes[i].position[axis], file.nodes[i].position[axis]);
+  }
+}
+
 TEST(UffRoundTrip, OfCoordinateSystemsKeepsSixDigits) {
   UffFile file;
   const Matrix3 axes = Quaternion(0.5, 0.1, -0.7, 0.3).normalized().toRotationMatrix();
