@@ -1,6 +1,6 @@
 // Cost of identification over the size of the structure: CPU seconds, the smallest of several repetitions,
-// and memory. Prints a Markdown table. Memory is what the resident set grows at its peak (VmHWM) over the input,
-// in a forked child, whose peak starts from what it inherits.
+// and memory. Prints a Markdown table. Memory is what the resident set grows at its peak (VmHWM) over the
+// input, in a forked child, whose peak starts from what it inherits.
 //
 //   identification_cost [N]     complete sets up to N freedoms, 600 unless given
 
