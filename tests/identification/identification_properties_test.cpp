@@ -41,7 +41,8 @@ Support some_springs(const TestStructure& s) {
   std::uniform_real_distribution<double> exponent(3, 6), mass(0, 0.5);
   Support support;
   for (const int node : nodes) {
-    const Matrix3 axes = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitX(), some_direction(random)).matrix();
+    const Matrix3 axes =
+        Eigen::Quaterniond::FromTwoVectors(Vector3::UnitX(), some_direction(random)).matrix();
     for (int axis = 0; axis < 3; ++axis)
       support.springs.push_back({node, axes.col(axis), std::pow(10, exponent(random))});
     if (*rc::gen::arbitrary<bool>()) support.masses.push_back({node, mass(random)});

@@ -563,7 +563,8 @@ TEST(Nodes, OfTheBodyAreKnownBeforeItsModes) {
   std::vector<IdentificationTask> tasks(3, task_on(s, springs_at({1, 2, 5, 8}, 1e5)));
   tasks[1].goal = Goal::kChanged;
   tasks[1].change.masses = {{4, 30}, {1, -2}, {4, 5}};
-  tasks[2].measured = seen_at({1, 2, 3, 5, 7, 8, 11, 12}, task_on(s, springs_at({1, 2, 5, 8}, 1e5), 9).measured);
+  tasks[2].measured =
+      seen_at({1, 2, 3, 5, 7, 8, 11, 12}, task_on(s, springs_at({1, 2, 5, 8}, 1e5), 9).measured);
   tasks[2].model = model_of(s);
   tasks[2].coverage = Coverage::kSerep;
   for (const IdentificationTask& task : tasks) {

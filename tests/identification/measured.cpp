@@ -47,8 +47,8 @@ VectorX true_frequencies(const MatrixX& K, const MatrixX& M, bool is_free, const
   std::vector<int> left;
   for (int i = 0; i < K.rows(); ++i)
     if (std::find(held.begin(), held.end(), i) == held.end()) left.push_back(i);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixX> eigen(MatrixX(K(left, left)),
-                                                                MatrixX(M(left, left)), Eigen::EigenvaluesOnly);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixX> eigen(
+      MatrixX(K(left, left)), MatrixX(M(left, left)), Eigen::EigenvaluesOnly);
   const VectorX& lambda = eigen.eigenvalues();
   return lambda.tail(lambda.size() - (is_free ? 6 : 0)).cwiseSqrt() / (2 * std::numbers::pi);
 }
