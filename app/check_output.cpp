@@ -45,6 +45,17 @@ void check_replaceable(const fs::path& path, const std::vector<std::string>& inp
 
 }  // namespace
 
+void check_output_folder(const std::string& path) {
+  if (path.empty()) throw InputError({"", "the name of the output folder is empty", "", "name a folder"});
+  std::error_code unknown;
+  fs::path folder = path;
+  if (!folder.has_filename()) folder = folder.parent_path();  // "name/"
+  if (fs::is_directory(folder, unknown)) return check_folder(folder / "file");
+  if (fs::exists(folder, unknown))
+    throw InputError({path, "a file has the name of the output folder", "", "give the folder another name"});
+  check_folder(folder);
+}
+
 void check_output(const std::string& path, const std::vector<std::string>& inputs) {
   if (path.empty()) throw InputError({"", "the name of the output is empty", "", "name a file to write"});
   check_folder(path);

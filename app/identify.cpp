@@ -1,9 +1,10 @@
 #include <fmt/core.h>
 
-#include <cmath>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 
 #include "app/check_output.h"
 #include "app/command.h"
@@ -11,6 +12,7 @@
 #include "app/identification_pictures.h"
 #include "app/identification_text.h"
 #include "app/text_file.h"
+#include "core/yaml.h"
 #include "identification/formats/identification_file.h"
 #include "identification/formats/matrix_market.h"
 #include "identification/formats/modal_file.h"
@@ -27,7 +29,7 @@ struct Options {
   bool json = false;
 };
 
-/// Names of the files of the matrices.
+/// Names of the files of the corrected matrices.
 std::string mass_file(const std::string& prefix) {
   return prefix + "_M.mtx";
 }
@@ -35,14 +37,27 @@ std::string stiffness_file(const std::string& prefix) {
   return prefix + "_K.mtx";
 }
 
-void check_outputs(const Options& options, const std::vector<std::string>& inputs) {
-  check_output(options.output, inputs);
+/// The files that the options name.
+std::vector<std::string> output_files(const Options& options) {
+  std::vector<std::string> files{options.output};
   if (options.also)
-    for (const auto& file : modal_data_files(*options.also)) check_output(file.string(), inputs);
-  if (options.html) check_output(*options.html, inputs);
-  if (!options.matrices) return;
-  check_output(mass_file(*options.matrices), inputs);
-  check_output(stiffness_file(*options.matrices), inputs);
+    for (const auto& file : modal_data_files(*options.also)) files.push_back(file.string());
+  if (options.html) files.push_back(*options.html);
+  if (options.matrices) {
+    files.push_back(mass_file(*options.matrices));
+    files.push_back(stiffness_file(*options.matrices));
+  }
+  return files;
+}
+
+void check_outputs(const Options& options, const std::vector<std::string>& inputs) {
+  std::set<std::filesystem::path> taken;
+  for (const std::string& file : output_files(options)) {
+    check_output(file, inputs);
+    if (!taken.insert(std::filesystem::weakly_canonical(file)).second)
+      throw InputError({file, "two outputs have the same name", "", "give each output a name of its own"});
+  }
+  if (options.pictures) check_output_folder(*options.pictures);
 }
 
 void write_outputs(const Options& options, const Identification& result) {
@@ -62,7 +77,9 @@ void write_outputs(const Options& options, const Identification& result) {
 ExitCode run(const Options& options) {
   const LoadedIdentification loaded = load_identification(options.input, options.set);
   check_outputs(options, loaded.files);
-  const Identification result = identify(loaded.task);
+  Source where = loaded.where;
+  where.path.clear();  // the error says itself what it is about
+  const Identification result = within(where, [&] { return identify(loaded.task); });
   write_outputs(options, result);
   if (options.json)
     fmt::print("{}\n", json_of(result).dump(2));
@@ -85,10 +102,8 @@ void add_identify(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--html", options->html, "write a page with tables and pictures to this file");
   command->add_option("--pictures", options->pictures,
                       "write mode shapes and MAC matrices as SVG into this folder");
-  command->add_option(
-      "--matrices", options->matrices,
-      "write mass and stiffness to PREFIX_M.mtx and PREFIX_K.mtx (MatrixMarket): of the corrected model,\n"
-      "else what the modes stand for");
+  command->add_option("--matrices", options->matrices,
+                      "write a corrected model to PREFIX_M.mtx and PREFIX_K.mtx (MatrixMarket)");
   command->add_flag("--json", options->json, "print JSON");
   command->footer(
       "What the file may say: docs/identification.md.\n\n"

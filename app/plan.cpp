@@ -7,6 +7,7 @@
 
 #include "app/analysis_options.h"
 #include "app/command.h"
+#include "app/scene_warnings.h"
 #include "models/scene_loader.h"
 
 namespace wishbone {
@@ -39,6 +40,7 @@ void print_lines(const Scene& scene, const Plan& plan) {
   fmt::print("integration           {} by {}\n", plan.form, plan.integrator);
   print_list("redundant closure rows, left out", plan.redundant_rows);
   print_list("tree", plan.tree);
+  print_list("identified", plan.identified);
   print_list("kept", plan.kept);
   print_list("left out", plan.left_out);
 }
@@ -58,6 +60,7 @@ void print_json(const Plan& plan) {
                                    {"form", plan.form},
                                    {"integrator", plan.integrator},
                                    {"tree", plan.tree},
+                                   {"identified", plan.identified},
                                    {"kept", plan.kept},
                                    {"left_out", plan.left_out}};
   fmt::print("{}\n", out.dump(2));
@@ -66,6 +69,7 @@ void print_json(const Plan& plan) {
 ExitCode run(const Options& options) {
   const Scene scene = load_scene(options.scene, options.set);
   CompiledScene compiled = compile(scene);
+  print_warnings(compiled);
   apply(options.analysis, compiled.transient);
   const Plan plan = make_plan(compiled);
   options.json ? print_json(plan) : print_lines(scene, plan);

@@ -10,6 +10,7 @@
 #include "app/analysis_options.h"
 #include "app/check_output.h"
 #include "app/command.h"
+#include "app/scene_warnings.h"
 #include "models/run_scene.h"
 #include "models/scene_loader.h"
 
@@ -141,6 +142,7 @@ ExitCode run(const Options& options) {
     if (body.form == Scene::BodyForm::kModal && body.flexible->identification)
       check_output(identified_modes_path(options.output, body.name), inputs);
   CompiledScene compiled = compile(scene);
+  print_warnings(compiled);
   apply(options.analysis, compiled.transient);
 
   std::signal(SIGINT, on_interrupt);

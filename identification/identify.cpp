@@ -54,8 +54,17 @@ VectorX damping_ratios(const PreparedStructure& s, const Solution& solution, con
   return (solution.coefficients.cwiseAbs2().transpose() * rates).cwiseQuotient(omega);
 }
 
-VectorX changed_masses(const IdentificationTask& task, const ModalData& data) {
+/// True when the masses of a corrected model are those of its nodes: modes that were cleaned up in them change none.
+bool has_masses_of_its_nodes(const CorrectedModel& corrected, const VectorX& node_mass) {
+  constexpr double kRounding = 1e-9;
+  return (corrected.M - MatrixX(lumped_mass_matrix(node_mass))).cwiseAbs().maxCoeff() <=
+         kRounding * node_mass.maxCoeff();
+}
+
+/// Lumped masses of the identified structure; none where they are not lumped.
+VectorX masses_of_nodes(const IdentificationTask& task, const ModalData& data, const Solution& solution) {
   VectorX mass = data.node_mass;
+  if (mass.size() > 0 && solution.corrected && !has_masses_of_its_nodes(*solution.corrected, mass)) return {};
   if (task.goal != Goal::kChanged || mass.size() == 0) return mass;
   if (task.change.dM) return {};  // no longer lumped, for all that is known
   for (const Support::Mass& change : task.change.masses) mass[data.node_index(change.node)] += change.mass;
@@ -72,7 +81,7 @@ ModalData as_modal_data(const IdentificationTask& task, const PreparedStructure&
          "check the stiffness of the support: no more can be taken off than the modes were measured on"});
   ModalData modes = s.data;
   modes.title = task.title;
-  modes.node_mass = task.goal == Goal::kCorrected ? VectorX() : changed_masses(task, s.data);
+  modes.node_mass = masses_of_nodes(task, s.data, solution);
   modes.omega = solution.modes.lambda.cwiseSqrt();
   modes.shapes = solution.modes.shapes;
   modes.modal_mass = VectorX::Ones(m);

@@ -34,12 +34,42 @@ std::vector<int> rows_in_model(const ModalData& data, const AnalyticalModel& mod
   return rows;
 }
 
+/// Equal numbers should mean equal places.
+void warn_of_places(const ModalData& data, const AnalyticalModel& model, const std::vector<int>& rows,
+                    std::vector<std::string>& warnings) {
+  constexpr double kFar = 1e-2;  // of the size of the model
+  double farthest = 0;
+  int node = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const int id = data.freedoms[i].node;
+    const double distance =
+        (data.node_position.col(data.node_index(id)) - model.node_position.col(rows[i] / 3)).norm();
+    if (distance <= farthest) continue;
+    farthest = distance;
+    node = id;
+  }
+  const double size =
+      (model.node_position.rowwise().maxCoeff() - model.node_position.rowwise().minCoeff()).norm();
+  if (farthest > kFar * size)
+    warnings.push_back(
+        fmt::format("node {} of the model lies {:.2g} m from where it was measured: check the numbering and "
+                    "the axes",
+                    node, farthest));
+}
+
 /// Shapes of the model that span what was measured: its own on the same support, rigid motion among them, twice as
 /// many as were measured but no more than the measured freedoms can tell apart.
-MatrixX serep_basis(const ModalData& data, const AnalyticalModel& model, PreparedStructure& out) {
+MatrixX serep_basis(const ModalData& data, const AnalyticalModel& model, const std::vector<int>& rows,
+                    PreparedStructure& out) {
   const SupportMatrices support = support_matrices(data.support, model.freedoms());
-  const auto count = std::min<Eigen::Index>(data.freedom_count(), 2 * data.mode_count() + 6);
-  const Modes basis = model_modes(model.K, model.M, support, count);
+  auto count = std::min<Eigen::Index>(data.freedom_count(), 2 * data.mode_count() + 6);
+  Modes basis = model_modes(model.K, model.M, support, count);
+  while (count > data.mode_count()) {
+    const Eigen::Index told_apart = serep_rank(basis.shapes, rows);
+    if (told_apart == count) break;
+    count = std::max<Eigen::Index>(told_apart, data.mode_count());
+    basis = basis.lowest(count);
+  }
   out.notes.push_back(
       fmt::format("expanded by SEREP from {} measured freedoms to {} with {} modes of the model",
                   data.freedom_count(), model.M.rows(), basis.count()));
@@ -48,7 +78,7 @@ MatrixX serep_basis(const ModalData& data, const AnalyticalModel& model, Prepare
 
 MatrixX static_basis(const ModalData& data, const AnalyticalModel& model, const std::vector<int>& rows) {
   const SupportMatrices support = support_matrices(data.support, model.freedoms());
-  return static_transformation(model.K + support.K_s, rows);
+  return static_transformation(model.K + support.K_s, support.D, rows);
 }
 
 /// The data with the shapes of all freedoms of the model.
@@ -66,11 +96,15 @@ void cover(const IdentificationTask& task, PreparedStructure& out) {
   if (!task.model) refuse("expansion and reduction need a model", "none was given", "name its M and K");
   const AnalyticalModel& model = *task.model;
   const std::vector<int> rows = rows_in_model(out.data, model);
+  warn_of_places(out.data, model, rows, out.warnings);
+  if (task.coverage == Coverage::kGuyan && (task.mass || task.rigid_body))
+    refuse("the masses are those of the model, reduced by Guyan, and given besides", "",
+           "give no other masses, or expand the modes to the model (expansion: serep or static)");
   switch (task.coverage) {
     case Coverage::kAsMeasured:
       break;
     case Coverage::kSerep:
-      take_model_freedoms(model, expand_serep(serep_basis(out.data, model, out), rows, out.data.shapes),
+      take_model_freedoms(model, expand_serep(serep_basis(out.data, model, rows, out), rows, out.data.shapes),
                           out.data);
       break;
     case Coverage::kStatic:
@@ -85,7 +119,7 @@ void cover(const IdentificationTask& task, PreparedStructure& out) {
                                       model.M.rows(), rows.size()));
       break;
   }
-  if (out.M.size() == 0) out.M = model.M;
+  if (out.M.size() == 0 && !task.mass) out.M = model.M;
   out.data.provenance.push_back(out.notes.back());
 }
 
@@ -135,9 +169,10 @@ SparseMatrix lumped(const ModalData& data) {
 void set_up_mass(const IdentificationTask& task, PreparedStructure& out) {
   if (task.rigid_body) find_masses(*task.rigid_body, out);
   if (out.M.size() == 0 || task.rigid_body) out.M = task.mass ? *task.mass : lumped(out.data);
-  if (out.M.rows() != out.data.freedom_count())
-    refuse("the mass matrix must have a row for every freedom of the modes",
-           fmt::format("{} rows for {} freedoms", out.M.rows(), out.data.freedom_count()),
+  const Eigen::Index n = out.data.freedom_count();
+  if (out.M.rows() != n || out.M.cols() != n)
+    refuse("the mass matrix must have a row and a column for every freedom of the modes",
+           fmt::format("{} x {} for {} freedoms", out.M.rows(), out.M.cols(), n),
            "give both for the same freedoms in the same order, or name the model in 'expansion'");
 }
 
@@ -179,8 +214,16 @@ ChangeMatrices change_matrices(const StructureChange& change, const std::vector<
     const SparseMatrix difference = D.row(0) - D.row(1);
     matrices.dK += spring.stiffness * SparseMatrix(difference.transpose() * difference);
   }
-  if (change.dM) matrices.dM += *change.dM;
-  if (change.dK) matrices.dK += *change.dK;
+  const auto add = [n](const std::optional<SparseMatrix>& given, const char* name, SparseMatrix& sum) {
+    if (!given) return;
+    if (given->rows() != n || given->cols() != n)
+      refuse(fmt::format("{} freedoms need a change of {} of {} x {}", n, name, n, n),
+             fmt::format("{} x {}", given->rows(), given->cols()),
+             "give it for the freedoms of the modes in their order");
+    sum += *given;
+  };
+  add(change.dM, "mass", matrices.dM);
+  add(change.dK, "stiffness", matrices.dK);
   return matrices;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 
@@ -40,13 +41,24 @@ double ratio_to_kept_stiffness(const SparseMatrix& K_s, const SparseMatrix& M, c
   return stiffest / kept.lambda.maxCoeff();
 }
 
+/// The measured modes and, ahead of them, the rigid motions that springs leave free: modes at zero that no test lists.
+Modes with_unheld_motions(const PreparedStructure& s, const Modes& measured, const SparseMatrix& M_t) {
+  Eigen::FullPivLU<MatrixX> springs(s.support.K_s * s.rigid);
+  springs.setThreshold(1e-9);
+  const Modes unit = mass_normalised(measured, M_t);
+  if (springs.dimensionOfKernel() == 0) return unit;
+  return with_rigid_body_modes(rigid_body_basis(s.rigid * springs.kernel(), M_t), unit);
+}
+
 /// Free-free elastic modes by the source's steps in physical space, then cleaned up.
 void release_in_physical_space(const PreparedStructure& s, const Modes& measured, ReleasedModes& released) {
   const SupportMatrices& support = s.support;
   const Eigen::Index count = released.modes.count();
   Modes found;
   if (support.D.rows() == 0) {
-    found = release_from_springs(Space::kPhysical, measured, s.M + support.M_s, support.M_s, support.K_s);
+    const SparseMatrix M_t = s.M + support.M_s;
+    found = release_from_springs(Space::kPhysical, with_unheld_motions(s, measured, M_t), M_t, support.M_s,
+                                 support.K_s);
     found = {found.lambda.segment(s.rigid.cols(), count), found.shapes.middleCols(s.rigid.cols(), count)};
   } else {
     if (support.K_s.nonZeros() > 0 || support.M_s.nonZeros() > 0)
@@ -103,6 +115,14 @@ void change(const IdentificationTask& task, const PreparedStructure& s, const Re
   out.residual = relative_residuals(out.modes, K_shapes, out.M, D);
 }
 
+void check_holds(const SupportMatrices& target, const MatrixX& rigid) {
+  const int held = held_motions(target, rigid);
+  if (held < rigid.cols())
+    throw InputError({"new support", "it leaves rigid-body motion of the structure free",
+                      fmt::format("{} of {} motions are held", held, rigid.cols()),
+                      "hold all of them: modes at zero frequency are no modes of a support"});
+}
+
 /// The corrected model's own free-free modes.
 void correct(const IdentificationTask& task, const PreparedStructure& s, const ReleasedModes& free,
              Solution& out) {
@@ -140,6 +160,7 @@ Solution solve(const IdentificationTask& task, const PreparedStructure& s, const
       break;
     case Goal::kHeld: {
       const SupportMatrices target = support_matrices(task.support, s.data.freedoms);
+      check_holds(target, s.rigid);
       change(task, s, free, {target.M_s, target.K_s}, target.D, out);
       break;
     }

@@ -22,18 +22,16 @@ ModeSet block_modes(const Scene::Flexible& flexible) {
 
 /// The ratios that the scene gives; those of the modes where it gives none.
 void set_damping(const Scene::Body& body, ModeSet& modes) {
+  if (const auto& ratio = body.flexible->identified_damping) modes.damping_ratio.setConstant(*ratio);
   const std::vector<double>& ratios = body.flexible->damping;
   if (ratios.empty()) return;
   const auto count = static_cast<Eigen::Index>(ratios.size());
-  if (count == 1)
-    modes.damping_ratio.setConstant(modes.mode_count(), ratios[0]);
-  else if (count == modes.mode_count())
-    modes.damping_ratio = Eigen::Map<const VectorX>(ratios.data(), count);
-  else
+  if (count != modes.mode_count())
     throw InputError(
         {body.where.text() + ".flexible.damping",
          fmt::format("there are {} damping ratios for {} identified modes", count, modes.mode_count()), "",
          "give one ratio for all modes, or one per mode"});
+  modes.damping_ratio = Eigen::Map<const VectorX>(ratios.data(), count);
 }
 
 /// One scene on its way into a SystemBuilder.

@@ -2,13 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
+#include <set>
 
 #include "core/document.h"
 #include "identification/formats/csv_table.h"
 #include "identification/formats/modal_file.h"
 #include "identification/held_freedoms.h"
 #include "identification/methods/model_modes.h"
+#include "identification/methods/rigid_modes.h"
 #include "identification/methods/support_matrices.h"
 #include "models/identification_sections.h"
 
@@ -16,6 +19,26 @@ namespace wishbone {
 namespace {
 
 using namespace identification_sections;
+
+/// Springs and joints must hold all rigid-body motions, for rounding alone gives the others a frequency.
+void check_holds(const AnalyticalModel& model, const Support& support) {
+  if (support.springs.empty() && support.joints.empty()) return;
+  const std::vector<Freedom> freedoms = model.freedoms();
+  const MatrixX rigid =
+      rigid_body_basis(rigid_body_shapes(freedoms, model.node_ids, model.node_position), model.M);
+  const int held = held_motions(support_matrices(support, freedoms), rigid);
+  if (held < rigid.cols())
+    throw InputError({"", "the support leaves rigid-body motion of the model free",
+                      fmt::format("{} of {} motions are held", held, rigid.cols()),
+                      "hold all of them, or name no support"});
+}
+
+void check_stiffness(const Modes& modes) {
+  if (!(modes.lambda[0] > 0))
+    throw InputError({"", "the model has a mode without stiffness",
+                      fmt::format("lowest eigenvalue {:.3g} rad2/s2", modes.lambda[0]),
+                      "check the stiffness of the model: only rigid-body motion is without"});
+}
 
 /// A virtual test: the lowest modes of the model on the support (all by default), rigid-body modes of a free one left
 /// out.
@@ -32,11 +55,7 @@ ModalData model_test(const AnalyticalModel& model, const Support& support, std::
   if (count) wanted = *count + rigid;
   Modes modes = model_modes(model.K, model.M, support_matrices(support, data.freedoms), wanted);
   modes = {modes.lambda.tail(modes.count() - rigid), modes.shapes.rightCols(modes.count() - rigid)};
-  constexpr double kRounding = 1e-12;  // of the largest eigenvalue
-  if (!(modes.lambda[0] > kRounding * modes.lambda[modes.count() - 1]))
-    throw InputError({"", "the support leaves rigid-body motion of the model free",
-                      fmt::format("lowest eigenvalue {:.3g} rad2/s2", modes.lambda[0]),
-                      "hold all six motions"});
+  check_stiffness(modes);
   data.omega = modes.lambda.cwiseSqrt();
   data.shapes = modes.shapes;
   data.damping_ratio = VectorX::Zero(modes.count());
@@ -54,8 +73,19 @@ void read_node_masses(const std::filesystem::path& path, ModalData& data) {
   while (table.next_row()) {
     const double value = factor * table.number(mass);
     if (!(value >= 0)) table.reject(mass, "a mass must not be negative", "give the lumped mass of the node");
-    data.node_mass[data.node_index(table.integer(node))] = value;
+    const int id = table.integer(node);
+    const auto found = std::find(data.node_ids.begin(), data.node_ids.end(), id);
+    if (found == data.node_ids.end())
+      table.reject(node, "the structure has no such node", nodes_text(data.node_ids));
+    data.node_mass[found - data.node_ids.begin()] = value;
   }
+}
+
+/// The file of a document and those that it includes.
+void list_files(const YamlNode& node, std::set<std::string>& files) {
+  if (node.where.file) files.insert(*node.where.file);
+  for (const YamlNodePtr& item : node.items) list_files(*item, files);
+  for (const YamlNode::Entry& entry : node.entries) list_files(*entry.value, files);
 }
 
 /// One section on its way into a task.
@@ -69,7 +99,7 @@ class Reader {
 
   LoadedIdentification read() && {
     if (const auto model = keys_.optional("model")) task_.model = read_model(*model, files_);
-    if (const auto support = keys_.optional("support")) support_ = read_support(*support);
+    support_ = keys_.optional("support");
     task_.measured = read_modes(keys_.required("measured"), support_);
     read_choices();
     if (const auto mass = keys_.optional("mass")) read_mass(*mass);
@@ -77,41 +107,38 @@ class Reader {
     if (const auto noise = keys_.optional("noise")) task_.noise = read_noise(*noise);
     if (const auto reference = keys_.optional("reference")) {
       task_.reference = read_modes(*reference, std::nullopt);
-      task_.reference_name = Mapping(*reference, {"file", "from", "modes"}).has("file")
-                                 ? Mapping(*reference, {"file", "from", "modes"}).required("file").text()
-                                 : "model";
+      const YamlNode::Entry* file = reference->node()->find("file");
+      task_.reference_name = file ? file->value->text : "model";
     }
     drop_unused_model();
-    return {std::move(task_), files_.read()};
+    return {std::move(task_), files_.read(), keys_.where()};
   }
 
  private:
   /// {file: NAME, modes: CHOICE} or {from: model, modes: CHOICE}; a support that is given replaces that of the file.
-  ModalData read_modes(const Value& value, const std::optional<Support>& support) {
+  ModalData read_modes(const Value& value, const std::optional<Value>& support) {
     const Mapping keys(value, {"file", "from", "modes"});
     if (keys.has("file") == keys.has("from"))
       keys.refuse("modes come either from a file or from the model", "write 'file: NAME' or 'from: model'");
-    ModalData data;
-    if (const auto file = keys.optional("file")) {
-      const auto path = files_.note(*file);
-      data = located(file->where(), [&] { return read_modal_data(path); });
-      if (support) data.support = *support;
-    } else {
-      const Value from = keys.required("from");
-      if (!from.is_word("model"))
-        from.refuse("modes can be computed from the model only", "write 'from: model'");
-      if (!task_.model) from.refuse("there is no model to take modes from", "add the section 'model'");
-      data = located(from.where(), [&] {
-        return model_test(*task_.model, support.value_or(Support{}), lowest_wanted(keys.optional("modes")));
-      });
-    }
+    const auto choice = keys.optional("modes");
+    ModalData data = keys.has("file") ? read_file(keys.required("file"), support)
+                                      : read_model_test(keys.required("from"), support, choice);
     within(value.where(), [&] {
       data.validate();
       data = with_held_freedoms(data);
       return 0;
     });
-    const auto choice = keys.optional("modes");
     return choice ? choose_modes(*choice, data) : data;
+  }
+
+  ModalData read_file(const Value& name, const std::optional<Value>& support) {
+    const auto path = files_.note_modal_data(name);
+    ModalData data = located(name.where(), [&] { return read_modal_data(path); });
+    if (support) {
+      data.support = read_support(*support);
+      check_nodes(*support, data.node_ids);
+    }
+    return data;
   }
 
   /// The number when the choice of modes is one, so that no others need be computed.
@@ -120,23 +147,37 @@ class Reader {
     return choice->integer(1, static_cast<int>(task_.model->M.rows()));
   }
 
-  void read_mass(const Value& value) {
-    const Mapping keys(value, {"file", "matrix", "total", "centre", "inertia"});
-    const bool is_distributed = keys.has("total") || keys.has("centre") || keys.has("inertia");
-    if (keys.has("file") + keys.has("matrix") + is_distributed > 1)
-      keys.refuse("the masses are given in more than one way",
-                  "write 'file', or 'matrix', or 'total', 'centre' and 'inertia'");
-    if (task_.coverage == Coverage::kGuyan || (takes_model_freedoms() && !is_distributed))
-      keys.refuse("with this expansion the masses are those of the model",
-                  "remove 'mass', and give the masses with the model");
-    if (const auto file = keys.optional("file")) {
-      const auto path = files_.note(*file);
-      located(file->where(), [&] {
-        read_node_masses(path, task_.measured);
+  ModalData read_model_test(const Value& from, const std::optional<Value>& support,
+                            const std::optional<Value>& choice) {
+    if (!from.is_word("model"))
+      from.refuse("modes can be computed from the model only", "write 'from: model'");
+    if (!task_.model) from.refuse("there is no model to take modes from", "add the section 'model'");
+    Support held;
+    if (support) {
+      held = read_support(*support);
+      check_nodes(*support, task_.model->node_ids);
+      located(support->where(), [&] {
+        check_holds(*task_.model, held);
         return 0;
       });
+    }
+    return within(from.where(), [&] { return model_test(*task_.model, held, lowest_wanted(choice)); });
+  }
+
+  /// A table of nodal masses, a mass matrix, or mass, centre and inertia of the body.
+  void read_mass(const Value& value) {
+    const Mapping keys(value, {"file", "matrix", "total", "centre", "inertia"});
+    const bool is_body = keys.has("total") || keys.has("centre") || keys.has("inertia");
+    if (keys.has("file") + keys.has("matrix") + is_body != 1)
+      keys.refuse("masses come from a table, a matrix or the mass data of the body",
+                  "write one of 'file: NAME', 'matrix: NAME' and 'total, centre, inertia'");
+    if (const auto file = keys.optional("file")) {
+      if (task_.coverage != Coverage::kAsMeasured)
+        file->refuse("the nodal masses are those of the model that the modes are expanded to",
+                     "remove the table, or write the masses into the model");
+      read_node_masses(files_.note(*file), task_.measured);
     } else if (const auto matrix = keys.optional("matrix")) {
-      task_.mass = read_structure_matrix(*matrix, files_);
+      task_.mass = read_symmetric(*matrix, files_);
       task_.measured.node_mass.resize(0);
     } else {
       task_.rigid_body = read_rigid_body(value);
@@ -166,7 +207,7 @@ class Reader {
                                        {"held", Goal::kHeld},
                                        {"changed", Goal::kChanged},
                                        {"corrected", Goal::kCorrected}},
-                                      "what can be found");
+                                      "the goals");
     const auto belongs = [&](const char* key, Goal goal, const char* word) {
       const auto value = keys_.optional(key);
       if (value && task_.goal != goal)
@@ -174,27 +215,19 @@ class Reader {
       if (!value && task_.goal == goal) keys_.required(key);
       return value;
     };
-    if (const auto support = belongs("new_support", Goal::kHeld, "held"))
+    const bool expanded = task_.coverage == Coverage::kSerep || task_.coverage == Coverage::kStatic;
+    const std::vector<int>& ids = expanded ? task_.model->node_ids : task_.measured.node_ids;
+    const Matrix3X& position = expanded ? task_.model->node_position : task_.measured.node_position;
+    if (const auto support = belongs("new_support", Goal::kHeld, "held")) {
       task_.support = read_support(*support);
-    if (const auto change = belongs("change", Goal::kChanged, "changed"))
-      task_.change = read_change(*change, structure(), files_);
+      check_nodes(*support, ids);
+    }
+    if (const auto change = belongs("change", Goal::kChanged, "changed")) {
+      task_.change = read_change(*change, ids, position, files_);
+      check_nodes(*change, ids);
+    }
     if (task_.goal == Goal::kCorrected && !task_.model)
       keys_.refuse("a correction needs a model", "add the section 'model'");
-  }
-
-  /// Shapes are expanded to the freedoms of the model.
-  bool takes_model_freedoms() const {
-    return task_.coverage == Coverage::kSerep || task_.coverage == Coverage::kStatic;
-  }
-
-  /// Nodes and freedoms that the identified modes will have.
-  ModalData structure() const {
-    ModalData data = task_.measured;
-    if (!takes_model_freedoms()) return data;
-    data.node_ids = task_.model->node_ids;
-    data.node_position = task_.model->node_position;
-    data.freedoms = task_.model->freedoms();
-    return data;
   }
 
   /// A model that only served to compute modes need not be carried along.
@@ -205,7 +238,7 @@ class Reader {
   Mapping keys_;
   Files files_;
   IdentificationTask task_;
-  std::optional<Support> support_;
+  std::optional<Value> support_;
 };
 
 }  // namespace
@@ -218,9 +251,13 @@ LoadedIdentification load_identification(const std::filesystem::path& path,
                                          const std::vector<std::string>& overrides) {
   const YamlNodePtr document = load_document(path, overrides);
   const Mapping root(Value(document, document->where), {"wishbone", "title", "parameters", "identification"});
-  root.required("wishbone").integer(1, 1);
+  const Value version = root.required("wishbone");
+  if (version.integer(1, 1000) != 1)
+    version.refuse("this format version is not known", "write 'wishbone: 1', or use a newer wishbone");
   LoadedIdentification loaded = read_identification(root.required("identification"), nullptr);
-  loaded.files.insert(loaded.files.begin(), path.string());
+  std::set<std::string> documents{path.string()};
+  list_files(*document, documents);
+  loaded.files.insert(loaded.files.begin(), documents.begin(), documents.end());
   if (const auto title = root.optional("title")) loaded.task.title = title->text();
   return loaded;
 }

@@ -12,7 +12,8 @@ namespace wishbone {
 /// An identification as the user asked for it, its data read.
 struct LoadedIdentification {
   IdentificationTask task;
-  std::vector<std::string> files;  ///< that data came from
+  std::vector<std::string> files;  ///< that it came from
+  Source where;                    ///< the section
 };
 
 /// Reads a file whose section `identification` is described in docs/identification.md; includes, parameters and

@@ -11,6 +11,7 @@
 #include "identification/elements/hexahedral_mesh.h"
 #include "identification/formats/csv_modal_data.h"
 #include "identification/formats/matrix_market.h"
+#include "identification/formats/modal_file.h"
 #include "models/scene_sections.h"
 
 namespace wishbone::identification_sections {
@@ -79,12 +80,8 @@ std::vector<Support::Mass> read_masses(const Value& list, bool of_any_sign) {
   return masses;
 }
 
-double largest_entry(const SparseMatrix& A) {
-  const SparseMatrix size = A.cwiseAbs();
-  return size.nonZeros() == 0 ? 0 : size.coeffs().maxCoeff();
-}
-
-StructureChange::Spring read_connection(const Value& item, const ModalData& structure) {
+StructureChange::Spring read_connection(const Value& item, const std::vector<int>& ids,
+                                        const Matrix3X& position) {
   const Mapping keys(item, {"nodes", "stiffness", "direction"});
   const Value nodes = keys.required("nodes");
   const std::vector<Value> ends = nodes.list();
@@ -92,40 +89,75 @@ StructureChange::Spring read_connection(const Value& item, const ModalData& stru
   StructureChange::Spring spring;
   spring.nodes = {read_id(ends[0]), read_id(ends[1])};
   spring.stiffness = keys.required("stiffness").number(kStiffness);
-  located(nodes.where(), [&] {
-    const Vector3 along = structure.node_position.col(structure.node_index(spring.nodes[1])) -
-                          structure.node_position.col(structure.node_index(spring.nodes[0]));
-    const auto direction = keys.optional("direction");
-    if (!direction && !(along.norm() > 0))
-      nodes.refuse("the two nodes are in one place, so that a direction must be given",
-                   "add 'direction: [x, y, z]'");
-    spring.direction = direction ? direction->direction() : along.normalized();
-    return 0;
-  });
+  if (const auto direction = keys.optional("direction")) {
+    spring.direction = direction->direction();
+    return spring;
+  }
+  const auto place = [&](const Value& node) -> Vector3 {
+    const auto found = std::find(ids.begin(), ids.end(), read_id(node));
+    if (found == ids.end()) node.refuse("the structure has no such node", nodes_text(ids));
+    return position.col(found - ids.begin());
+  };
+  const Vector3 along = place(ends[1]) - place(ends[0]);
+  if (!(along.norm() > 0))
+    nodes.refuse("the two nodes are in one place, so that a direction must be given",
+                 "add 'direction: [x, y, z]'");
+  spring.direction = along.normalized();
   return spring;
+}
+
+std::filesystem::path path_of(const Value& name) {
+  const Source& where = name.where();
+  const std::filesystem::path folder = where.file ? std::filesystem::path(*where.file).parent_path() : "";
+  return (folder / name.text()).lexically_normal();
+}
+
+/// What stands under `node` or `nodes`.
+std::vector<Value> node_values(const Value& item) {
+  const Mapping keys(item, {"node", "nodes", "stiffness", "direction", "axes", "mass"});
+  if (const auto node = keys.optional("node")) return {*node};
+  return keys.required("nodes").list();
 }
 
 }  // namespace
 
+void Files::add(const std::filesystem::path& path, const Value& name) {
+  std::error_code unknown;
+  if (!std::filesystem::exists(path, unknown))
+    name.refuse(fmt::format("there is no file {}", path.string()),
+                "names are relative to the file that they stand in");
+  read_.push_back(path.string());
+}
+
 std::filesystem::path Files::note(const Value& name) {
-  const Source& where = name.where();
-  const std::filesystem::path folder = where.file ? std::filesystem::path(*where.file).parent_path() : "";
-  const std::filesystem::path path = (folder / name.text()).lexically_normal();
-  add(path);
+  const std::filesystem::path path = path_of(name);
+  add(path, name);
   return path;
 }
 
-SparseMatrix read_structure_matrix(const Value& name, Files& files) {
-  const SparseMatrix A = read_matrix_market(files.note(name));
-  if (A.rows() != A.cols())
-    name.refuse("a matrix of masses or stiffnesses must be square",
-                fmt::format("this one has {} x {}", A.rows(), A.cols()));
-  constexpr double kRounding = 1e-6;  // of the largest entry
-  const double asymmetry = largest_entry(A - SparseMatrix(A.transpose()));
-  if (asymmetry > kRounding * largest_entry(A))
-    name.refuse("a matrix of masses or stiffnesses must be symmetric",
-                fmt::format("entries differ from their mirror images by up to {:.3g}", asymmetry));
-  return A;
+std::filesystem::path Files::note_modal_data(const Value& name) {
+  const std::filesystem::path path = path_of(name);
+  for (const auto& file : within(name.where(), [&] { return modal_data_files(path); })) add(file, name);
+  return path;
+}
+
+std::string nodes_text(const std::vector<int>& ids) {
+  const auto [first, last] = std::minmax_element(ids.begin(), ids.end());
+  const bool gapless = *last - *first + 1 == static_cast<int>(ids.size());
+  return gapless ? fmt::format("its nodes are {} to {}", *first, *last)
+                 : fmt::format("it has {} nodes between {} and {}", ids.size(), *first, *last);
+}
+
+void check_nodes(const Value& section, const std::vector<int>& ids) {
+  const Mapping parts(section, {"springs", "joints", "masses", "mass_matrix", "stiffness_matrix"});
+  for (const char* part : {"springs", "joints", "masses"}) {
+    const auto list = parts.optional(part);
+    if (!list) continue;
+    for (const Value& item : list->list())
+      for (const Value& node : node_values(item))
+        if (std::find(ids.begin(), ids.end(), read_id(node)) == ids.end())
+          node.refuse("the structure has no such node", nodes_text(ids));
+  }
 }
 
 std::vector<int> read_nodes(const Mapping& keys) {
@@ -151,23 +183,28 @@ Support read_support(const Value& value) {
   return support;
 }
 
-StructureChange read_change(const Value& value, const ModalData& structure, Files& files) {
+SparseMatrix read_symmetric(const Value& name, Files& files) {
+  const std::filesystem::path path = files.note(name);
+  SparseMatrix A = read_matrix_market(path);
+  if (A.rows() != A.cols())
+    name.refuse(fmt::format("the matrix must be square, this one has {} x {}", A.rows(), A.cols()),
+                "give a row and a column for every freedom");
+  const SparseMatrix transposed = A.transpose();
+  if (const double asymmetry = (A - transposed).norm(); !(asymmetry <= 1e-8 * A.norm()))
+    name.refuse(fmt::format("the matrix must be symmetric, its asymmetry is {:.2g}", asymmetry / A.norm()),
+                "take its symmetric part if the difference is noise");
+  return A;
+}
+
+StructureChange read_change(const Value& value, const std::vector<int>& ids, const Matrix3X& position,
+                            Files& files) {
   const Mapping keys(value, {"masses", "springs", "mass_matrix", "stiffness_matrix"});
   StructureChange change;
   if (const auto masses = keys.optional("masses")) change.masses = read_masses(*masses, true);
   if (const auto springs = keys.optional("springs"))
-    for (const Value& item : springs->list()) change.springs.push_back(read_connection(item, structure));
-  const auto read_matrix = [&](const char* key, std::optional<SparseMatrix>& matrix) {
-    const auto name = keys.optional(key);
-    if (!name) return;
-    matrix = read_structure_matrix(*name, files);
-    if (matrix->rows() != structure.freedom_count())
-      name->refuse(fmt::format("it has {} rows for {} freedoms of the modes", matrix->rows(),
-                               structure.freedom_count()),
-                   "give it for the same freedoms in the same order");
-  };
-  read_matrix("mass_matrix", change.dM);
-  read_matrix("stiffness_matrix", change.dK);
+    for (const Value& item : springs->list()) change.springs.push_back(read_connection(item, ids, position));
+  if (const auto matrix = keys.optional("mass_matrix")) change.dM = read_symmetric(*matrix, files);
+  if (const auto matrix = keys.optional("stiffness_matrix")) change.dK = read_symmetric(*matrix, files);
   if (change.empty()) keys.refuse("there is no change", "name masses, springs or matrices");
   return change;
 }
@@ -187,18 +224,27 @@ AnalyticalModel block_model(const Vector3& size, const Eigen::Vector3i& elements
 }
 
 AnalyticalModel read_model(const Value& value, Files& files) {
-  const Mapping keys(value, {"block", "material", "nodes", "stiffness", "mass"});
-  if (keys.has("block")) {
+  if (value.is_mapping() && value.node()->find("block")) {
+    const Mapping keys(value, {"block", "material"});
     const Scene::Block block = scene_sections::read_block(keys.required("block"), keys.required("material"));
     return block_model(block.size, block.elements, block.young, block.poisson, block.density);
   }
+  const Mapping keys(value, {"nodes", "stiffness", "mass"});
   const NodeTable nodes = read_csv_nodes(files.note(keys.required("nodes")));
+  const auto read = [&](const Value& name) {
+    SparseMatrix A = read_symmetric(name, files);
+    if (A.rows() != nodes.position.size())
+      name.refuse(fmt::format("{} nodes have {} freedoms, this matrix has {} rows", nodes.ids.size(),
+                              nodes.position.size(), A.rows()),
+                  "give three freedoms to every node, in the order of the table");
+    return A;
+  };
   AnalyticalModel model;
   model.node_ids = nodes.ids;
   model.node_position = nodes.position;
-  model.K = read_structure_matrix(keys.required("stiffness"), files);
+  model.K = read(keys.required("stiffness"));
   if (const auto mass = keys.optional("mass")) {
-    model.M = read_structure_matrix(*mass, files);
+    model.M = read(*mass);
   } else if (nodes.mass.size() > 0) {
     model.node_mass = nodes.mass;
     model.M = lumped_mass_matrix(nodes.mass);
@@ -206,12 +252,6 @@ AnalyticalModel read_model(const Value& value, Files& files) {
     keys.refuse("the masses of the model are not known",
                 "add 'mass: M.mtx', or a column 'mass' to the nodes");
   }
-  const Eigen::Index n = model.node_position.size();
-  for (const auto& [key, matrix] :
-       {std::pair<const char*, const SparseMatrix*>{"stiffness", &model.K}, {"mass", &model.M}})
-    if (matrix->rows() != n)
-      keys.refuse(fmt::format("{} nodes need a {} matrix of {} rows, three a node", nodes.ids.size(), key, n),
-                  fmt::format("this one has {} x {}", matrix->rows(), matrix->cols()));
   return model;
 }
 

@@ -13,25 +13,34 @@ namespace wishbone::identification_sections {
 /// Names of files as the document gives them, and those that were read.
 class Files {
  public:
-  /// The path of a file named by a value: relative to the document that the value stands in.
+  /// The path of a file named by a value, relative to the document that the value stands in. Throws InputError there
+  /// when there is no such file.
   std::filesystem::path note(const Value& name);
-  void add(const std::filesystem::path& path) { read_.push_back(path.string()); }
+  /// The same for modal data, whose name may stand for several tables.
+  std::filesystem::path note_modal_data(const Value& name);
   const std::vector<std::string>& read() const { return read_; }
 
  private:
+  void add(const std::filesystem::path& path, const Value& name);
+
   std::vector<std::string> read_;
 };
 
 /// `node: N` or `nodes: [N, ...]` of a mapping that has one of the two.
 std::vector<int> read_nodes(const Mapping& keys);
 
-/// A MatrixMarket file with a symmetric matrix.
-SparseMatrix read_structure_matrix(const Value& name, Files& files);
+/// "its nodes are 1 to 20".
+std::string nodes_text(const std::vector<int>& ids);
 
 Support read_support(const Value& value);
-/// Positions are those of the structure that is changed: springs between nodes act along their connection.
-StructureChange read_change(const Value& value, const ModalData& structure, Files& files);
+/// Refuses, where it stands, the first node of a support or a design change that is not among `ids`.
+void check_nodes(const Value& section, const std::vector<int>& ids);
+/// Springs between nodes act along their connection; `ids` and `position` (3 x n) are those of the structure.
+StructureChange read_change(const Value& value, const std::vector<int>& ids, const Matrix3X& position,
+                            Files& files);
 AnalyticalModel read_model(const Value& value, Files& files);
+/// A square symmetric matrix from a file.
+SparseMatrix read_symmetric(const Value& name, Files& files);
 MeasurementNoise read_noise(const Value& value);
 RigidBodyData read_rigid_body(const Value& value);
 

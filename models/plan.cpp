@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "identification/formats/mode_file.h"
 #include "solver/assembly.h"
 #include "solver/events.h"
 
@@ -55,6 +56,14 @@ void list_parts(const System& system, Plan& plan) {
   sort_into(system.gravity.norm() > 0, "gravity", "gravity: zero", plan);
 }
 
+std::string identified_line(const IdentifiedBody& body) {
+  const ModalData& input = body.identification.input;
+  return fmt::format(
+      "{}: {} modes identified from {} measured ones {}", body.body, body.identification.modes.mode_count(),
+      input.mode_count(),
+      input.support.empty() ? "of the free structure" : "on " + describe_support(input.support));
+}
+
 }  // namespace
 
 Plan make_plan(const CompiledScene& compiled) {
@@ -82,6 +91,7 @@ Plan make_plan(const CompiledScene& compiled) {
   const IntegratorOptions integrator = resolve(compiled.transient.integrator, system);
   plan.form = to_string(integrator.form);
   plan.integrator = to_string(integrator.method);
+  for (const IdentifiedBody& body : compiled.identified) plan.identified.push_back(identified_line(body));
   list_parts(system, plan);
   return plan;
 }

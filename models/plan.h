@@ -18,9 +18,10 @@ struct Plan {
   int mobility = 0;  ///< speeds (elastic ones included) minus independent closure rows
   int force_elements = 0;
   std::string form, integrator;
-  std::vector<std::string> tree;      ///< one line a body: joint, parent, freedoms
-  std::vector<std::string> kept;      ///< what the scene makes necessary
-  std::vector<std::string> left_out;  ///< what it does not need, and why
+  std::vector<std::string> tree;        ///< one line a body: joint, parent, freedoms
+  std::vector<std::string> identified;  ///< one line a body whose modes were identified: from what
+  std::vector<std::string> kept;        ///< what the scene makes necessary
+  std::vector<std::string> left_out;    ///< what it does not need, and why
 };
 
 /// Assembles the initial state (so that redundant rows are known) and takes stock.

@@ -41,7 +41,8 @@ struct Scene {
     std::optional<Block> block;
     std::shared_ptr<const IdentificationTask> identification;  ///< null: modes of the block
     int modes = 0;                                             ///< lowest elastic modes kept of the block's
-    std::vector<double> damping;  ///< damping ratio of each kept mode; empty: as identified
+    std::vector<double> damping;  ///< damping ratio of each kept mode; empty: as identified, or one for all
+    std::optional<double> identified_damping;  ///< one damping ratio for all identified modes
   };
 
   enum class BodyForm { kRigid, kModal };

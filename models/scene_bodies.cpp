@@ -51,7 +51,7 @@ void take_lowest_modes(const Value& modes, const std::optional<Value>& damping, 
   if (damping) flexible.damping = read_damping(*damping, flexible.modes);
 }
 
-/// The modes are identified, and the nodes are those of the identification; a block is its model only.
+/// The modes are identified, and the nodes with them; a block is the model unless the identification has its own.
 void take_identification(const Value& section, Scene::Flexible& flexible, Scene& scene) {
   std::optional<AnalyticalModel> model;
   if (flexible.block) {
@@ -60,8 +60,7 @@ void take_identification(const Value& section, Scene::Flexible& flexible, Scene&
   }
   LoadedIdentification loaded = read_identification(section, model ? &*model : nullptr);
   if (loaded.task.goal == Goal::kHeld || loaded.task.goal == Goal::kCorrected)
-    section.refuse("a flexible body needs free-free modes and lumped masses",
-                   "write 'find: free' or 'changed'");
+    section.refuse("a flexible body needs free-free modes and lumped masses", "write 'find: free' or 'changed'");
   const BodyNodes nodes = within(section.where(), [&] { return body_nodes(loaded.task); });
   flexible.node_ids = nodes.ids;
   flexible.node_position = nodes.position;
@@ -69,12 +68,15 @@ void take_identification(const Value& section, Scene::Flexible& flexible, Scene&
   flexible.identification = std::make_shared<const IdentificationTask>(std::move(loaded.task));
 }
 
-/// One ratio for all modes or a list; how many there are shows when they have been identified.
-std::vector<double> read_open_damping(const Value& value) {
-  if (!value.is_list()) return {value.non_negative(kRatio)};
-  std::vector<double> ratios;
-  for (const Value& item : value.list()) ratios.push_back(item.non_negative(kRatio));
-  return ratios;
+/// One ratio for all modes or a list, whose length is known to be right when the modes have been identified.
+void take_identified_damping(const Value& value, Scene::Flexible& flexible) {
+  if (!value.is_list()) {
+    flexible.identified_damping = value.non_negative(kRatio);
+    return;
+  }
+  for (const Value& item : value.list()) flexible.damping.push_back(item.non_negative(kRatio));
+  if (flexible.damping.empty())
+    value.refuse("there are no damping ratios in the list", "remove the key to keep those of the modes");
 }
 
 Scene::Flexible read_flexible(const Value& value, Scene& scene) {
@@ -89,7 +91,7 @@ Scene::Flexible read_flexible(const Value& value, Scene& scene) {
     return flexible;
   }
   take_identification(modes, flexible, scene);
-  if (damping) flexible.damping = read_open_damping(*damping);
+  if (damping) take_identified_damping(*damping, flexible);
   return flexible;
 }
 
@@ -194,11 +196,8 @@ int read_node(const Value& node, const Scene::Body& body) {
   const std::vector<int>& ids = body.flexible->node_ids;
   const int number = node.integer(std::numeric_limits<int>::min(), std::numeric_limits<int>::max());
   if (std::find(ids.begin(), ids.end(), number) == ids.end()) {
-    const auto [first, last] = std::minmax_element(ids.begin(), ids.end());
-    const bool gapless = *last - *first + 1 == static_cast<int>(ids.size());
     node.refuse(fmt::format("the body '{}' has no such node", body.name),
-                gapless ? fmt::format("its nodes are {} to {}", *first, *last)
-                        : fmt::format("it has {} nodes between {} and {}", ids.size(), *first, *last));
+                identification_sections::nodes_text(ids));
   }
   return number;
 }

@@ -4,6 +4,7 @@
 
 #include <Eigen/QR>
 #include <Eigen/SparseCholesky>
+#include <algorithm>
 
 #include "core/error.h"
 
@@ -27,12 +28,23 @@ SparseMatrix block(const SparseMatrix& A, const std::vector<int>& row_place, Eig
   return B;
 }
 
-}  // namespace
-
-MatrixX expand_serep(const MatrixX& model_shapes, const std::vector<int>& measured, const MatrixX& shapes) {
+/// Phi_m, factored.
+Eigen::ColPivHouseholderQR<MatrixX> measured_part(const MatrixX& model_shapes,
+                                                  const std::vector<int>& measured) {
   Eigen::ColPivHouseholderQR<MatrixX> Phi_m;
   Phi_m.setThreshold(1e-9);
   Phi_m.compute(model_shapes(measured, Eigen::all));
+  return Phi_m;
+}
+
+}  // namespace
+
+Eigen::Index serep_rank(const MatrixX& model_shapes, const std::vector<int>& measured) {
+  return measured_part(model_shapes, measured).rank();
+}
+
+MatrixX expand_serep(const MatrixX& model_shapes, const std::vector<int>& measured, const MatrixX& shapes) {
+  const Eigen::ColPivHouseholderQR<MatrixX> Phi_m = measured_part(model_shapes, measured);
   if (Phi_m.rank() < model_shapes.cols())
     throw InputError(
         {"expansion", "the measured freedoms must tell the modes of the model apart",
@@ -65,6 +77,26 @@ MatrixX static_transformation(const SparseMatrix& K, const std::vector<int>& mas
   for (std::size_t i = 0; i < slave_place.size(); ++i)
     if (slave_place[i] >= 0) T.row(static_cast<Eigen::Index>(i)) = T_s.row(slave_place[i]);
   return T;
+}
+
+MatrixX static_transformation(const SparseMatrix& K, const SparseMatrix& D, const std::vector<int>& masters) {
+  std::vector<int> all = masters;  // and the freedoms h that joints touch
+  for (int j = 0; j < D.outerSize(); ++j)
+    if (SparseMatrix::InnerIterator(D, j) && std::find(masters.begin(), masters.end(), j) == masters.end())
+      all.push_back(j);
+  const MatrixX T = static_transformation(K, all);
+  const auto r = static_cast<Eigen::Index>(masters.size()), h = static_cast<Eigen::Index>(all.size()) - r;
+  if (h == 0) return T;
+  // [K_hh D_h^T; D_h 0] [x_h; mu] = -[K_hr; D_r] x_r
+  const MatrixX K_all = reduced(K, T), D_all = MatrixX(D)(Eigen::all, all);
+  const Eigen::Index c = D.rows();
+  MatrixX A(h + c, h + c), b(h + c, r);
+  const double scale = K_all.diagonal().maxCoeff();  // so that the two kinds of rows compare
+  A << K_all.bottomRightCorner(h, h) / scale, D_all.rightCols(h).transpose(), D_all.rightCols(h),
+      MatrixX::Zero(c, c);
+  b << K_all.bottomLeftCorner(h, r) / scale, D_all.leftCols(r);
+  const MatrixX x = A.completeOrthogonalDecomposition().solve(-b);
+  return T.leftCols(r) + T.rightCols(h) * x.topRows(h);
 }
 
 MatrixX reduced(const SparseMatrix& A, const MatrixX& T) {

@@ -19,17 +19,10 @@ namespace {
 }
 
 /// Joints that leave a rigid motion free hide it from the measurement, unless springs resist it.
-void check_holds(const SupportMatrices& support, const MatrixX& rigid) {
-  if (support.D.rows() == 0) return;
-  MatrixX held(support.D.rows() + support.K_s.rows(), rigid.cols());
-  const MatrixX joints = support.D * rigid, springs = support.K_s * rigid;
-  held << joints, springs / std::max(springs.norm(), std::numeric_limits<double>::min());
-  Eigen::ColPivHouseholderQR<MatrixX> qr;
-  qr.setThreshold(1e-9);
-  qr.compute(held);
-  if (qr.rank() < rigid.cols())
+void check_holds(const SupportMatrices& support, Eigen::Index held, Eigen::Index rigid) {
+  if (support.D.rows() > 0 && held < rigid)
     refuse("the joints leave rigid-body motion of the structure free",
-           fmt::format("{} of {} rigid-body motions are held", qr.rank(), rigid.cols()),
+           fmt::format("{} of {} rigid-body motions are held", held, rigid),
            "name every joint of the support, or the springs that hold the other motions");
 }
 
@@ -82,15 +75,25 @@ ElasticPart elastic_part(const MatrixX& shapes, const SparseMatrix& M, const Mat
 
 }  // namespace
 
+int held_motions(const SupportMatrices& support, const MatrixX& rigid) {
+  MatrixX held(support.D.rows() + support.K_s.rows(), rigid.cols());
+  const MatrixX joints = support.D * rigid, springs = support.K_s * rigid;
+  held << joints, springs / std::max(springs.norm(), std::numeric_limits<double>::min());
+  Eigen::ColPivHouseholderQR<MatrixX> qr;
+  qr.setThreshold(1e-9);
+  return static_cast<int>(qr.compute(held).rank());
+}
+
 ReleasedModes release(const Modes& supported, const SparseMatrix& M, const SupportMatrices& support,
                       const MatrixX& rigid, double least_elastic_share) {
-  check_holds(support, rigid);
+  const Eigen::Index held = held_motions(support, rigid);
+  check_holds(support, held, rigid.cols());
   const Modes unit = mass_normalised(supported, M + support.M_s);
   const MatrixX F = elastic_forces(unit, M, support, rigid);
   const ElasticPart part = elastic_part(unit.shapes, M, rigid, least_elastic_share);
 
   const int held_by_joints = held_rigid_freedoms(support.D, rigid);
-  const Eigen::Index sprung = rigid.cols() - held_by_joints;
+  const Eigen::Index sprung = held - held_by_joints;
   const Eigen::Index count = std::min(unit.count() - sprung, part.X.cols());
   if (count < 1)
     refuse("there must be more modes than rigid-body motions on springs",

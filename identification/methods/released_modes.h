@@ -11,6 +11,9 @@ struct SupportMatrices {
   SparseMatrix D;    ///< c x n, joints: D x = 0
 };
 
+/// Number of independent rigid-body motions (columns of Psi_0) that springs or joints resist.
+int held_motions(const SupportMatrices& support, const MatrixX& rigid);
+
 /// Free-free elastic modes of a structure that was measured on a support.
 struct ReleasedModes {
   Modes modes;           ///< unit modal mass, orthogonal to rigid motion

@@ -38,12 +38,16 @@ class Rows {
     return components;
   }
 
-  /// All listed freedoms of a node.
+  /// All listed freedoms of a node that has a mass.
   std::vector<int> of(int node) const {
+    const auto found = rows_.find(node);
+    if (found == rows_.end())
+      throw InputError({"support", "a mass stands on a node that the modes do not show",
+                        fmt::format("node {}", node),
+                        "measure this node, or expand the modes to a model that has it"});
     std::vector<int> listed;
-    if (const auto found = rows_.find(node); found != rows_.end())
-      for (const int row : found->second)
-        if (row >= 0) listed.push_back(row);
+    for (const int row : found->second)
+      if (row >= 0) listed.push_back(row);
     return listed;
   }
 

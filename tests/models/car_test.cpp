@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "models/compile.h"
 #include "models/run_scene.h"
@@ -149,6 +150,27 @@ TEST_P(Chassis, RepeatsBitForBit) {
 
 INSTANTIATE_TEST_SUITE_P(Car, Chassis, ::testing::Values("rigid", "modal"),
                          [](const auto& chassis) { return std::string(chassis.param); });
+
+class IdentifiedChassis : public ::testing::TestWithParam<std::tuple<const char*, const char*>> {};
+
+TEST_P(IdentifiedChassis, DrivesAsTheModelDoes) {
+  const auto [scene, chassis] = GetParam();
+  const Result modal = run({scene, {"chassis=modal"}, 0.7, 1e-8});
+  const Result identified = run({scene, {std::string("chassis=") + chassis}, 0.7, 1e-8});
+  ASSERT_EQ(identified.time, modal.time);
+  EXPECT_LT(worst_vehicle_difference(identified, modal), 1e-6);
+  for (const auto& [path, values] : modal.signals) {
+    if (path.starts_with("/vehicle/")) EXPECT_LT(difference(identified, modal, path), 1e-6) << path;
+  }
+  EXPECT_LT(difference(identified, modal, "/flexible/chassis/deflection"), 1e-6);
+}
+
+INSTANTIATE_TEST_SUITE_P(Car, IdentifiedChassis,
+                         ::testing::Combine(::testing::Values("sine_depression", "impulse_steer"),
+                                            ::testing::Values("springs", "joints")),
+                         [](const auto& c) {
+                           return std::string(std::get<0>(c.param)) + "_" + std::get<1>(c.param);
+                         });
 
 TEST(Car, RigidChassisHasOneRedundantRowALink) {
   const Result r = run({"impulse_steer", {"chassis=rigid"}, 0.01, 1e-5});

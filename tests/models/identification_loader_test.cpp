@@ -1,186 +1,178 @@
-// Files for `wishbone identify`: what is wrong is told with its place; the examples give the modes of their models.
+// Files that describe identifications: what every key means.
 #include "models/identification_loader.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "core/error.h"
-#include "identification/formats/csv_modal_data.h"
-#include "models/scene_loader.h"
-#include "text_files.h"
+#include "models/identification_files.h"
 
 namespace wishbone {
 namespace {
 
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 
-constexpr const char* kGood = R"(wishbone: 1
+/// The good identification with some texts replaced.
+LoadedIdentification load(const IdentificationFiles& files,
+                          const std::vector<std::pair<std::string, std::string>>& changes = {},
+                          const std::vector<std::string>& overrides = {}) {
+  std::string text(kGoodIdentification);
+  for (const auto& [old, replacement] : changes) {
+    const auto at = text.find(old);
+    EXPECT_NE(at, std::string::npos) << old;
+    text.replace(at, old.size(), replacement);
+  }
+  return load_identification(files.write("frame.yaml", text), overrides);
+}
+
+TEST(IdentificationLoader, ReadsEveryKey) {
+  const IdentificationFiles files;
+  const IdentificationTask task = load(files).task;
+  EXPECT_EQ(task.title, "Frame on springs");
+  EXPECT_EQ(task.goal, Goal::kChanged);
+  EXPECT_EQ(task.space, Space::kModal);
+  EXPECT_EQ(task.coverage, Coverage::kAsMeasured);
+  EXPECT_EQ(task.keep, 20);
+  EXPECT_EQ(task.measured.mode_count(), 30);
+  EXPECT_EQ(task.measured.node_count(), 12);
+  EXPECT_DOUBLE_EQ(task.measured.node_mass[2], 1.003);
+  ASSERT_TRUE(task.noise);
+  EXPECT_DOUBLE_EQ(task.noise->frequency, 0.001);
+  EXPECT_DOUBLE_EQ(task.noise->shape, 0.01);
+  EXPECT_EQ(task.noise->samples, 50);
+  EXPECT_EQ(task.noise->seed, 7u);
+  ASSERT_TRUE(task.reference);
+  EXPECT_EQ(task.reference->mode_count(), 10);
+  EXPECT_EQ(task.reference_name, "model");
+  EXPECT_FALSE(task.model) << "it only served for the reference";
+}
+
+TEST(IdentificationLoader, ReadsTheSupport) {
+  const IdentificationFiles files;
+  const Support support = load(files).task.measured.support;
+  ASSERT_EQ(support.springs.size(), 14u);
+  EXPECT_EQ(support.springs[5].node, 2);
+  EXPECT_EQ(support.springs[5].direction, Vector3::UnitZ());
+  EXPECT_EQ(support.springs[5].stiffness, 47e3);
+  EXPECT_EQ(support.springs[12].node, 3) << "two of its three stiffnesses are zero";
+  EXPECT_EQ(support.springs[12].direction, Vector3::UnitZ());
+  EXPECT_EQ(support.springs[12].stiffness, 2e3);
+  EXPECT_LE((support.springs[13].direction - Vector3(0, 0.6, 0.8)).norm(), 1e-15);
+  ASSERT_EQ(support.joints.size(), 3u);
+  EXPECT_EQ(support.joints[1].node, 9);
+  EXPECT_EQ(support.joints[1].direction, Vector3::UnitZ());
+  EXPECT_EQ(support.joints[2].direction, Vector3::UnitY());
+  ASSERT_EQ(support.masses.size(), 1u);
+  EXPECT_EQ(support.masses[0].node, 5);
+  EXPECT_EQ(support.masses[0].mass, 0.5);
+}
+
+TEST(IdentificationLoader, ReadsTheChange) {
+  const IdentificationFiles files;
+  const IdentificationTask task = load(files).task;
+  const StructureChange& change = task.change;
+  ASSERT_EQ(change.masses.size(), 2u);
+  EXPECT_EQ(change.masses[1].node, 7);
+  EXPECT_EQ(change.masses[1].mass, -1);
+  ASSERT_EQ(change.springs.size(), 2u);
+  EXPECT_EQ(change.springs[0].nodes, (std::array{1, 2}));
+  const ModalData& data = task.measured;
+  EXPECT_LE((change.springs[0].direction - (data.node_position.col(1) - data.node_position.col(0)).normalized()).norm(),
+            1e-15)
+      << "along the connection";
+  EXPECT_EQ(change.springs[1].direction, Vector3::UnitZ());
+  EXPECT_EQ(change.springs[1].stiffness, -6e3);
+  EXPECT_EQ(change.dM->nonZeros(), 1);
+  EXPECT_EQ(change.dK->rows(), 36);
+}
+
+TEST(IdentificationLoader, NamesEveryFileThatItReads) {
+  const IdentificationFiles files;
+  files.write("common.yaml", "parameters: {other: 1}\n");
+  const auto read = load(files, {{"title:", "include: common.yaml\ntitle:"}}).files;
+  std::vector<std::string> names;
+  for (const std::string& file : read) names.push_back(std::filesystem::path(file).filename());
+  EXPECT_THAT(names, testing::IsSupersetOf({"frame.yaml", "test_nodes.csv", "test_frequencies.csv",
+                                            "test_shapes.csv", "masses.csv", "dM.mtx", "dK.mtx"}));
+  for (const std::string& file : read) EXPECT_TRUE(std::filesystem::exists(file)) << file;
+}
+
+TEST(IdentificationLoader, ChoosesModes) {
+  const IdentificationFiles files;
+  const auto modes = [&](const std::string& choice) {
+    return load(files, {{"modes: = modes", "modes: " + choice}}).task.measured.omega;
+  };
+  const VectorX all = modes("all");
+  ASSERT_EQ(all.size(), 36);
+  EXPECT_EQ(modes("4"), all.head(4));
+  EXPECT_EQ(modes("[9, 2]"), VectorX(all(std::vector{1, 8})));
+  const double hz = (all[6] + all[7]) / 2 / (2 * std::numbers::pi);
+  EXPECT_EQ(modes("{above: " + std::to_string(hz) + " Hz}"), all.tail(29));
+  EXPECT_EQ(modes("{below: " + std::to_string(hz) + "}"), all.head(7));
+}
+
+TEST(IdentificationLoader, TakesOverridesOfParameters) {
+  const IdentificationFiles files;
+  EXPECT_EQ(load(files, {}, {"modes=25"}).task.measured.mode_count(), 25);
+}
+
+TEST(IdentificationLoader, ReadsMassesOfTheBodyOrAMatrix) {
+  const IdentificationFiles files;
+  const auto body = load(files, {{"{file: masses.csv}", "{total: 3 kg, centre: [1 mm, 0, 0], inertia: [2, 3, 4]}"}});
+  ASSERT_TRUE(body.task.rigid_body);
+  EXPECT_EQ(body.task.rigid_body->mass, 3);
+  EXPECT_EQ(body.task.rigid_body->centre.x(), 1e-3);
+  EXPECT_EQ(body.task.rigid_body->inertia(2, 2), 4);
+  const auto matrix = load(files, {{"{file: masses.csv}", "{matrix: dM.mtx}"}});
+  EXPECT_EQ(matrix.task.mass->rows(), 36);
+  EXPECT_FALSE(matrix.task.measured.has_masses());
+}
+
+TEST(IdentificationLoader, ReadsAModelFromFiles) {
+  const IdentificationFiles files;
+  const AnalyticalModel block = [&] {
+    const auto path = files.write("block.yaml", R"(wishbone: 1
 identification:
-  model:
-    block: {size: [2.4, 0.4, 0.4], elements: [4, 1, 1]}
-    material: {young: 210 MPa, poisson: 0.3, density: 2600}
   measured: {from: model}
-)";
-
-constexpr const char* kSupport = R"(  support:
-    joints: [{node: 1, axes: xyz}, {node: 18, axes: y}, {nodes: [2, 17], axes: z}]
-)";
-
-class IdentificationFiles : public testing::Test {
- protected:
-  std::filesystem::path write(const std::string& more) const {
-    return files_.write("a.yaml", std::string(kGood) + more);
-  }
-  std::string refusal(const std::string& more) const {
-    const auto file = write(more);
-    return files_.relative(message_of<InputError>([&] { load_identification(file); }));
-  }
-  Identification identified(const std::string& more) const {
-    return identify(load_identification(write(more)).task);
-  }
-  TextFiles files_;
-};
-
-TEST_F(IdentificationFiles, GiveMassesInOneWay) {
-  EXPECT_EQ(refusal("  mass: {file: m.csv, total: 998 kg}\n"),
-            "a.yaml:7:3: identification.mass: error: the masses are given in more than one way\n"
-            "  write 'file', or 'matrix', or 'total', 'centre' and 'inertia'");
-}
-
-TEST_F(IdentificationFiles, TakeMassesFromTheModelThatTheyExpandTo) {
-  for (const char* expansion : {"serep", "static", "guyan"})
-    EXPECT_THAT(refusal(std::string("  mass: {file: m.csv}\n  expansion: ") + expansion + "\n"),
-                HasSubstr("with this expansion the masses are those of the model"));
-  EXPECT_EQ(
-      refusal("  mass: {total: 998.4 kg, centre: [0, 0, 0], inertia: [53, 505, 505]}\n  expansion: serep\n"),
-      "nothing was thrown");
-}
-
-TEST_F(IdentificationFiles, NameMatricesThatFitTheModes) {
-  files_.write("small.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 1\n1 1 1\n");
-  files_.write("wide.mtx", "%%MatrixMarket matrix coordinate real general\n2 3 1\n1 1 1\n");
-  files_.write("skew.mtx", "%%MatrixMarket matrix coordinate real general\n2 2 2\n1 1 1\n1 2 0.5\n");
-  for (const char* key : {"mass_matrix", "stiffness_matrix"}) {
-    const std::string change = std::string("  find: changed\n  change: {") + key + ": ";
-    EXPECT_THAT(refusal(change + "small.mtx}\n"), HasSubstr("it has 2 rows for 60 freedoms of the modes"));
-    EXPECT_THAT(refusal(change + "wide.mtx}\n"), HasSubstr("this one has 2 x 3"));
-    EXPECT_THAT(refusal(change + "skew.mtx}\n"), HasSubstr("mirror images by up to 0.5"));
+  model:
+    block: {size: [1.2, 0.4, 0.3], elements: [2, 1, 1]}
+    material: {young: 210 MPa, poisson: 0.3, density: 2600}
+  find: corrected
+)");
+    return *load_identification(path).task.model;
+  }();
+  const SparseMatrix transposed = block.K.transpose();
+  write_matrix_market(files / "K.mtx", SparseMatrix((block.K + transposed) / 2), true);
+  write_matrix_market(files / "M.mtx", block.M, true);
+  for (const char* mass : {", mass: M.mtx", ""}) {
+    const auto loaded = load_identification(files.write(
+        "files.yaml", "wishbone: 1\nidentification:\n  measured: {from: model}\n  find: corrected\n"
+                      "  model: {nodes: test_nodes.csv, stiffness: K.mtx" +
+                          std::string(mass) + "}\n"));
+    EXPECT_LE((MatrixX(loaded.task.model->K) - MatrixX(block.K)).norm(), 1e-12 * block.K.norm());
+    EXPECT_LE((MatrixX(loaded.task.model->M) - MatrixX(block.M)).norm(), 1e-12 * block.M.norm());
+    EXPECT_EQ(loaded.task.measured.mode_count(), 30) << "elastic modes of the free model";
+    EXPECT_TRUE(loaded.task.measured.support.empty());
   }
 }
 
-TEST_F(IdentificationFiles, RefuseAVirtualTestWhoseSupportHoldsNotEverything) {
-  for (const char* stiffness : {"[0, 0, 4e4]", "[0, 0, 4e5]", "[3e3, 0, 7e4]"})
-    EXPECT_THAT(refusal(std::string("  support: {springs: [{nodes: [1, 2, 17, 18], stiffness: ") + stiffness +
-                        "}]}\n"),
-                HasSubstr("the support leaves rigid-body motion of the model free"));
-}
-
-TEST_F(IdentificationFiles, RefuseScatterThatNoModeSurvives) {
-  EXPECT_THAT(refusal("  noise: {shapes: 10 %}\n"),
-              HasSubstr("identification.noise.shapes: error: shapes that scatter"));
-}
-
-TEST_F(IdentificationFiles, TellWhereANodeOfTheSupportIsMissing) {
-  write_csv_modal_data(csv_modal_files(files_ / "m.csv"), load_identification(write(kSupport)).task.measured);
-  const auto file = files_.write("b.yaml",
-                                 "wishbone: 1\nidentification:\n  measured: {file: m.csv}\n"
-                                 "  support: {joints: [{node: 99, axes: z}]}\n");
-  EXPECT_THAT(
-      files_.relative(message_of<InputError>([&] { load_identification(file); })),
-      HasSubstr("b.yaml:3:3: identification.measured: modal data: error: a support joint names a node"));
-}
-
-TEST_F(IdentificationFiles, NeedNoRowsOfFreedomsThatJointsHold) {
-  const IdentificationTask full = load_identification(write(kSupport)).task;
-  ModalData short_of_rows = full.measured;
-  std::vector<int> rows;
-  for (int i = 0; i < full.measured.freedom_count(); ++i)
-    if (full.measured.shapes.row(i).cwiseAbs().maxCoeff() > 1e-12) rows.push_back(i);
-  ASSERT_EQ(rows.size(), 54u);
-  short_of_rows.shapes = MatrixX(full.measured.shapes(rows, Eigen::all));
-  short_of_rows.freedoms.clear();
-  for (const int i : rows)
-    short_of_rows.freedoms.push_back(full.measured.freedoms[static_cast<std::size_t>(i)]);
-  write_csv_modal_data(csv_modal_files(files_ / "m.csv"), short_of_rows);
-
-  const auto file = files_.write(
-      "b.yaml", std::string("wishbone: 1\nidentification:\n  measured: {file: m.csv}\n") + kSupport);
-  const IdentificationTask task = load_identification(file).task;
-  EXPECT_EQ(task.measured.freedoms, full.measured.freedoms);
-  EXPECT_LT((identify(task).modes.omega - identify(full).modes.omega).norm(), 1e-9);
-}
-
-TEST_F(IdentificationFiles, ChangeNodesThatOnlyTheModelHas) {
-  // a spring to the node that the test did not see is a change all the same
-  const std::string change =
-      "  find: changed\n  change: {springs: [{nodes: [9, 11], stiffness: 200 kN/m}], masses: [{node: 10, "
-      "mass: 9 kg}]}\n";
-  const Identification direct = identified(change);
-  ModalData seen = load_identification(write("")).task.measured.with_modes({0, 1, 2, 3});
-  std::vector<int> rows;
-  for (int i = 0; i < seen.freedom_count(); ++i)
-    if (const int node = seen.freedoms[static_cast<std::size_t>(i)].node; node != 9) rows.push_back(i);
-  seen.shapes = MatrixX(seen.shapes(rows, Eigen::all));
-  std::vector<Freedom> freedoms;
-  for (const int i : rows) freedoms.push_back(seen.freedoms[static_cast<std::size_t>(i)]);
-  seen.freedoms = freedoms;
-  write_csv_modal_data(csv_modal_files(files_ / "m.csv"), seen);
-  std::string text = std::string(kGood) + "  expansion: serep\n" + change;
-  text.replace(text.find("from: model"), 11, "file: m.csv");
-  const Identification expanded = identify(load_identification(files_.write("b.yaml", text)).task);
-  // four modes cannot follow the change as all of them do: upper bounds, and near for so small a change
-  for (int j = 0; j < 3; ++j) {
-    EXPECT_GE(expanded.modes.omega[j], (1 - 1e-9) * direct.modes.omega[j]);
-    EXPECT_NEAR(expanded.modes.omega[j], direct.modes.omega[j], 0.02 * direct.modes.omega[j]);
-  }
-}
-
-TEST_F(IdentificationFiles, GiveABodyItsNodesWhateverBlockStandsBeside) {
-  const auto measured = std::filesystem::canonical(std::filesystem::path(WISHBONE_SCENES) / ".." /
-                                                   "identification" / "examples");
-  const auto file =
-      files_.write("scene.yaml", R"(wishbone: 1
-bodies:
-  frame:
-    form: modal
-    position: [0, 0, 0]
-    flexible:
-      block: {size: [9, 0.4, 0.4], elements: [4, 1, 1]}
-      material: {young: 210 MPa, poisson: 0.3, density: 2600}
-      modes: {measured: {file: )" + (measured / "chassis_test.unv").string() +
-                                     "}, mass: {file: " + (measured / "chassis_masses.csv").string() +
-                                     "}}\n");
-  const Scene scene = load_scene(file);
-  EXPECT_LT((scene.bodies[0].flexible->node_position.col(0) - Vector3(-1.2, -0.2, -0.2)).norm(), 1e-12);
-}
-
-/// Largest frequency error of the `count` lowest modes of an example against its model.
-double worst_error(const std::string& example, int count, const std::vector<std::string>& set = {}) {
-  const auto path = std::filesystem::path(WISHBONE_SCENES) / ".." / "identification" / example;
-  IdentificationTask task = load_identification(path, set).task;
-  task.noise.reset();  // 200 repetitions do not change the modes
-  const Identification result = identify(task);
-  EXPECT_TRUE(result.judgement.reference.has_value());
-  return result.judgement.reference->frequency_error.head(count).cwiseAbs().maxCoeff();
-}
-
-TEST(IdentificationExamples, GiveAllFreeModesOfACompleteTest) {
-  EXPECT_LT(worst_error("chassis_on_springs.yaml", 54), 1e-11);
-  EXPECT_LT(worst_error("chassis_on_joints.yaml", 54), 1e-11);
-}
-
-TEST(IdentificationExamples, GiveTheFreeModesOfATestByUniversalFileToItsDigits) {
-  // six digits of the file, and what the 30 modes of 60 leave out
-  EXPECT_LT(worst_error("examples/chassis_test.yaml", 8), 1e-5);
-  EXPECT_LT(worst_error("examples/chassis_test.yaml", 23), 2e-4);
-}
-
-TEST(IdentificationExamples, SayHowTheMeasuredFileWasMade) {
-  const auto folder = std::filesystem::path(WISHBONE_SCENES) / ".." / "identification" / "examples";
-  const Identification made = identify(load_identification(folder / "virtual_test.yaml").task);
-  const ModalData read = load_identification(folder / "chassis_test.yaml").task.measured;
-  ASSERT_EQ(read.mode_count(), made.modes.mode_count());
-  EXPECT_LT((read.omega - made.modes.omega).cwiseQuotient(read.omega).cwiseAbs().maxCoeff(), 1e-5);
+TEST(IdentificationLoader, HasFreeModesAsMeasuredByDefault) {
+  const IdentificationFiles files;
+  const IdentificationTask task =
+      load_identification(
+          files.write("short.yaml", "wishbone: 1\nidentification: {measured: {file: test.csv}}\n"))
+          .task;
+  EXPECT_EQ(task.goal, Goal::kFree);
+  EXPECT_EQ(task.space, Space::kModal);
+  EXPECT_EQ(task.coverage, Coverage::kAsMeasured);
+  EXPECT_EQ(task.measured.mode_count(), 36);
+  EXPECT_TRUE(task.measured.support.empty()) << "tables have no place for one";
+  EXPECT_TRUE(task.measured.has_masses());
+  EXPECT_FALSE(task.keep || task.noise || task.reference || task.mass || task.rigid_body);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "identification/methods/support_matrices.h"
 #include "identification/structures.h"
 
 namespace wishbone {
@@ -56,6 +57,24 @@ TEST(StaticTransformation, ReducesToUpperBoundsOfTheFrequencies) {
 
 TEST(StaticTransformation, RefusesMastersThatDoNotHoldTheBody) {
   EXPECT_THROW(static_transformation(chassis().K, {0, 1, 2}), InputError);
+}
+
+TEST(StaticTransformation, HoldsJointsWhereNothingWasMeasured) {
+  const TestStructure s = chassis();
+  const std::vector<int> masters{0, 1, 2, 51, 52, 53, 10, 30};
+  Support support = joints_at({{5, "xyz"}, {8, "z"}});
+  support.joints.push_back({11, Vector3(1, 2, -1).normalized()});
+  const SparseMatrix D = support_matrices(support, s.freedoms()).D;
+  const MatrixX T = static_transformation(s.K, D, masters);
+  EXPECT_LE((T(masters, Eigen::all) - MatrixX::Identity(8, 8)).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LE((D * T).cwiseAbs().maxCoeff(), 1e-11);
+  // besides masters only the joints push, along their directions
+  MatrixX forces = s.K * T;
+  forces(masters, Eigen::all).setZero();
+  MatrixX pushes = D;
+  pushes(Eigen::all, masters).setZero();
+  const MatrixX mu = pushes.transpose().colPivHouseholderQr().solve(forces);
+  EXPECT_LE((forces - pushes.transpose() * mu).cwiseAbs().maxCoeff(), 1e-9 * forces.cwiseAbs().maxCoeff());
 }
 
 }  // namespace

@@ -1,0 +1,66 @@
+#include "identification/measured.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <numbers>
+
+#include "identification/methods/support_matrices.h"
+
+namespace wishbone {
+
+ModalData measured_on(const TestStructure& structure, const Support& support, Eigen::Index lowest) {
+  Modes modes = modes_on(structure, support_matrices(support, structure.freedoms()));
+  const Eigen::Index unheld = (modes.lambda.array() <= 1e-9 * modes.lambda.maxCoeff()).count();
+  modes = {modes.lambda.tail(modes.count() - unheld), modes.shapes.rightCols(modes.count() - unheld)};
+  if (lowest >= 0) modes = modes.lowest(lowest);
+  ModalData data;
+  data.node_ids = structure.node_ids;
+  data.node_position = structure.nodes;
+  data.node_mass = structure.node_mass;
+  data.freedoms = structure.freedoms();
+  data.omega = modes.lambda.cwiseSqrt();
+  data.shapes = modes.shapes;
+  data.damping_ratio = VectorX::Zero(modes.count());
+  data.modal_mass = VectorX::Ones(modes.count());
+  data.support = support;
+  return data;
+}
+
+AnalyticalModel model_of(const TestStructure& structure) {
+  return {structure.node_ids, structure.nodes, structure.node_mass, structure.M, structure.K, {}};
+}
+
+ModalData seen_at(const std::vector<int>& nodes, const ModalData& data) {
+  ModalData seen = data;
+  std::vector<int> columns, rows;
+  for (const int node : nodes) columns.push_back(data.node_index(node));
+  seen.node_ids = nodes;
+  seen.freedoms = all_freedoms(nodes);
+  for (const Freedom& freedom : seen.freedoms) rows.push_back(*data.row(freedom));
+  seen.node_position = data.node_position(Eigen::all, columns);
+  seen.node_mass = data.node_mass(columns);
+  seen.shapes = data.shapes(rows, Eigen::all);
+  return seen;
+}
+
+VectorX true_frequencies(const MatrixX& K, const MatrixX& M, bool is_free, const std::vector<int>& held) {
+  std::vector<int> left;
+  for (int i = 0; i < K.rows(); ++i)
+    if (std::find(held.begin(), held.end(), i) == held.end()) left.push_back(i);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixX> eigen(
+      MatrixX(K(left, left)), MatrixX(M(left, left)), Eigen::EigenvaluesOnly);
+  const VectorX& lambda = eigen.eigenvalues();
+  return lambda.tail(lambda.size() - (is_free ? 6 : 0)).cwiseSqrt() / (2 * std::numbers::pi);
+}
+
+double plane_distance(const MatrixX& A, const MatrixX& B, const SparseMatrix& M) {
+  const auto orthonormal = [&](const MatrixX& X) -> MatrixX {
+    const Eigen::LLT<MatrixX> L(X.transpose() * (M * X));
+    return L.matrixL().solve(X.transpose()).transpose();
+  };
+  const MatrixX a = orthonormal(A), b = orthonormal(B);
+  const MatrixX left = b - a * (a.transpose() * (M * b));
+  return std::sqrt((left.transpose() * (M * left)).diagonal().maxCoeff());
+}
+
+}  // namespace wishbone
