@@ -57,12 +57,12 @@ void warn_of_places(const ModalData& data, const AnalyticalModel& model, const s
                     node, farthest));
 }
 
-/// Shapes of the model that span what was measured: its own on the same support, rigid motion among them, twice as
-/// many as were measured but no more than the measured freedoms can tell apart.
+/// Shapes of the model that span what was measured: its own on the same support, rigid motion among them, six more than
+/// were measured but no more than the measured freedoms can tell apart.
 MatrixX serep_basis(const ModalData& data, const AnalyticalModel& model, const std::vector<int>& rows,
                     PreparedStructure& out) {
   const SupportMatrices support = support_matrices(data.support, model.freedoms());
-  auto count = std::min<Eigen::Index>(data.freedom_count(), 2 * data.mode_count() + 6);
+  auto count = std::min<Eigen::Index>(data.freedom_count(), data.mode_count() + 6);
   Modes basis = model_modes(model.K, model.M, support, count);
   while (count > data.mode_count()) {
     const Eigen::Index told_apart = serep_rank(basis.shapes, rows);

@@ -59,8 +59,8 @@ void take_identification(const Value& section, Scene::Flexible& flexible, Scene&
     model = identification_sections::block_model(b.size, b.elements, b.young, b.poisson, b.density);
   }
   LoadedIdentification loaded = read_identification(section, model ? &*model : nullptr);
-  if (loaded.task.goal == Goal::kHeld || loaded.task.goal == Goal::kCorrected)
-    section.refuse("a flexible body needs free-free modes and lumped masses", "write 'find: free' or 'changed'");
+  if (loaded.task.goal == Goal::kHeld)
+    section.refuse("a flexible body needs free-free modes", "write 'find: free', 'changed' or 'corrected'");
   const BodyNodes nodes = within(section.where(), [&] { return body_nodes(loaded.task); });
   flexible.node_ids = nodes.ids;
   flexible.node_position = nodes.position;

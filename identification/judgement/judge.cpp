@@ -69,10 +69,9 @@ void warn_of_data(const PreparedStructure& s, const Modes& unit, Judgement& judg
       if (share[j] > kMostlyRigid) rigid.push_back(static_cast<int>(j) + 1);
     if (!rigid.empty())
       judgement.warnings.push_back(
-          fmt::format("mode{} {} {} mostly rigid-body motion, as on a support, and none is named: name it, or leave "
-                      "the mode{} out",
-                      rigid.size() > 1 ? "s" : "", mode_list(rigid), rigid.size() > 1 ? "are" : "is",
-                      rigid.size() > 1 ? "s" : ""));
+          fmt::format("mode{} {} {} mostly rigid-body motion, as on a support, and no support is named: the frequencies of "
+                      "the other modes are those on it",
+                      rigid.size() > 1 ? "s" : "", mode_list(rigid), rigid.size() > 1 ? "are" : "is"));
   }
   const bool on_springs_alone = s.support.D.rows() == 0 && s.support.K_s.nonZeros() > 0;
   if (!on_springs_alone) return;

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <limits>
 
 #include "core/error.h"
@@ -94,13 +95,17 @@ ReleasedModes release(const Modes& supported, const SparseMatrix& M, const Suppo
 
   const int held_by_joints = held_rigid_freedoms(support.D, rigid);
   const Eigen::Index sprung = held - held_by_joints;
-  const Eigen::Index count = std::min(unit.count() - sprung, part.X.cols());
+  Eigen::Index count = std::min(unit.count() - sprung, part.X.cols());
   if (count < 1)
     refuse("there must be more modes than rigid-body motions on springs",
            fmt::format("{} modes, {} such motions", unit.count(), sprung), "measure more modes");
 
   const MatrixX K_X = part.X.transpose() * F * part.V;
   const Modes small = solve_eigenproblem((K_X + K_X.transpose()) / 2, part.X.transpose() * (M * part.X));
+  // above the highest measured frequency an incomplete set knows nothing of the free structure
+  const int directions = joint_directions(support.D);
+  if (unit.count() < M.rows() - directions)
+    count = std::clamp<Eigen::Index>((small.lambda.array() <= unit.lambda.maxCoeff()).count(), 1, count);
   ReleasedModes released;
   released.modes = {small.lambda.head(count), part.X * small.shapes.leftCols(count)};
   released.coefficients = part.V * small.shapes.leftCols(count);
@@ -108,7 +113,7 @@ ReleasedModes release(const Modes& supported, const SparseMatrix& M, const Suppo
   released.modes.shapes *= signs.asDiagonal();
   released.coefficients *= signs.asDiagonal();
   released.K_shapes = F * released.coefficients;
-  released.lost_modes = joint_directions(support.D) - held_by_joints;
+  released.lost_modes = directions - held_by_joints;
   released.residual =
       released.lost_modes > 0
           ? VectorX::Constant(count, std::numeric_limits<double>::quiet_NaN())
