@@ -58,8 +58,9 @@ void list_parts(const System& system, Plan& plan) {
 
 std::string identified_line(const IdentifiedBody& body) {
   const ModalData& input = body.identification.input;
+  const int count = body.identification.modes.mode_count();
   return fmt::format(
-      "{}: {} modes identified from {} measured ones {}", body.body, body.identification.modes.mode_count(),
+      "{}: {} mode{} identified from {} measured ones {}", body.body, count, count == 1 ? "" : "s",
       input.mode_count(),
       input.support.empty() ? "of the free structure" : "on " + describe_support(input.support));
 }

@@ -95,12 +95,13 @@ TEST_F(IdentifyCommand, WritesOtherFormatsToo) {
 }
 
 TEST_F(IdentifyCommand, WritesAPageAndPictures) {
-  const Answer answer = identify(
-      "frame.yaml", "-o " + path("free.h5") + " --html " + path("page.html") + " --pictures " + path("pictures"));
+  const Answer answer = identify("frame.yaml", "-o " + path("free.h5") + " --html " + path("page.html") +
+                                                   " --pictures " + path("pictures"));
   EXPECT_EQ(answer.code, 0) << answer.text;
   EXPECT_THAT(contents("page.html"), AllOf(HasSubstr("<!doctype html>"), HasSubstr("Frame on springs"),
                                            HasSubstr("</html>"), HasSubstr("<svg")));
-  for (const std::string picture : {"modes", "input_modes", "mac_reference", "mac_input", "mac_auto", "frequencies"})
+  for (const std::string picture :
+       {"modes", "input_modes", "mac_reference", "mac_input", "mac_auto", "frequencies"})
     EXPECT_THAT(contents("pictures/" + picture + ".svg"), HasSubstr("</svg>")) << picture;
 }
 
@@ -172,9 +173,10 @@ TEST_F(IdentifyCommand, LeavesNothingBehindOnBadInput) {
 TEST_F(IdentifyCommand, TellsWhichFileAnIdentificationFailedFor) {
   const Answer answer = identify("frame.yaml", "--set modes=5 -o " + path("free.h5"));
   EXPECT_EQ(answer.code, 2);
-  EXPECT_EQ(answer.text,
-            "frame.yaml:6:1: support: error: there must be more modes than rigid-body motions on springs (got "
-            "5 modes, 6 such motions)\n  measure more modes\n");
+  EXPECT_EQ(
+      answer.text,
+      "frame.yaml:6:1: support: error: there must be more modes than rigid-body motions on springs (got "
+      "5 modes, 6 such motions)\n  measure more modes\n");
   EXPECT_THAT(names(), testing::ElementsAre("frame.yaml"));
 }
 
@@ -186,8 +188,22 @@ TEST_F(IdentifyCommand, TellsWhatToDoubt) {
 
 TEST_F(IdentifyCommand, RefusesUniversalFilesWithoutModes) {
   for (const auto& [file, reason] : std::vector<std::pair<std::string, std::string>>{
-           {"1858.uff", "the file holds no modes (got 2 datasets that are not read)\n  export mode shapes at nodes (dataset 55 or 2414, analysis type 2, 3 or 7)\n"}, {"Sample_UFF58_ascii.uff", "the file holds no modes (got 1 function)\n  export mode shapes at nodes (dataset 55 or 2414, analysis type 2, 3 or 7)\n"}, {"heat_engine_housing.uff", "the file holds no modes (got 10 nodes, 8 elements, 1 nodal result; left out 1 nodal results: analysis type 1 is no mode)\n  export mode shapes at nodes (dataset 55 or 2414, analysis type 2, 3 or 7)\n"},
-           {"mesh_Oros-modal_uff15_uff2412.uff", "the file holds no modes (got 96 nodes, 1 coordinate system, 72 elements)\n  export mode shapes at nodes (dataset 55 or 2414, analysis type 2, 3 or 7)\n"}, {"uff55_translation.uff", "4 nodes of the mode shapes have no position (got node 1 and others; the file holds 3 nodal results)\n  export the geometry into the same file (dataset 15 or 2411)\n"}}) {
+           {"1858.uff",
+            "the file holds no modes (got 2 datasets that are not read)\n  export mode shapes at nodes "
+            "(dataset 55 or 2414, analysis type 2, 3 or 7)\n"},
+           {"Sample_UFF58_ascii.uff",
+            "the file holds no modes (got 1 function)\n  export mode shapes at nodes (dataset 55 or 2414, "
+            "analysis type 2, 3 or 7)\n"},
+           {"heat_engine_housing.uff",
+            "the file holds no modes (got 10 nodes, 8 elements, 1 nodal result; left out 1 nodal results: "
+            "analysis type 1 is no mode)\n  export mode shapes at nodes (dataset 55 or 2414, analysis type "
+            "2, 3 or 7)\n"},
+           {"mesh_Oros-modal_uff15_uff2412.uff",
+            "the file holds no modes (got 96 nodes, 1 coordinate system, 72 elements)\n  export mode shapes "
+            "at nodes (dataset 55 or 2414, analysis type 2, 3 or 7)\n"},
+           {"uff55_translation.uff",
+            "4 nodes of the mode shapes have no position (got node 1 and others; the file holds 3 nodal "
+            "results)\n  export the geometry into the same file (dataset 15 or 2411)\n"}}) {
     std::filesystem::copy(std::string(WISHBONE_TEST_DATA) + "/uff/" + file, files_ / "test.uff",
                           std::filesystem::copy_options::overwrite_existing);
     files_.write("test.yaml", "wishbone: 1\nidentification: {measured: {file: test.uff}}\n");
@@ -235,7 +251,7 @@ TEST_F(IdentifyCommand, PlanAndRunWarnOnStandardError) {
     const Answer both = call(arguments);
     EXPECT_EQ(both.code, 0) << both.text;
     EXPECT_THAT(both.text, HasSubstr("warning: frame: ")) << arguments;
-    EXPECT_THAT(call(arguments + " 2>/dev/null").text, Not(HasSubstr("warning"))) << arguments;
+    EXPECT_THAT(call(arguments + " 2>/dev/null #").text, Not(HasSubstr("warning"))) << arguments;
   }
   const ModalData kept = read_mode_file(path("run.frame_modes.h5"));
   EXPECT_EQ(kept.mode_count(), 6);

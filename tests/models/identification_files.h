@@ -62,7 +62,8 @@ identification:
                                .task.measured;
     write_csv_modal_data(csv_modal_files(*this / "test.csv"), data);
     std::string masses = "node,mass [g]\n";
-    for (const int node : data.node_ids) masses += std::to_string(node) + "," + std::to_string(1000 + node) + "\n";
+    for (const int node : data.node_ids)
+      masses += std::to_string(node) + "," + std::to_string(1000 + node) + "\n";
     write("masses.csv", masses);
     write("nodes.csv", "node,x,y,z\n1,0,0,0\n2,1,0,0\n3,0,1,0\n");
     SparseMatrix one(36, 36);

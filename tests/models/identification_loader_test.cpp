@@ -81,8 +81,10 @@ TEST(IdentificationLoader, ReadsTheChange) {
   ASSERT_EQ(change.springs.size(), 2u);
   EXPECT_EQ(change.springs[0].nodes, (std::array{1, 2}));
   const ModalData& data = task.measured;
-  EXPECT_LE((change.springs[0].direction - (data.node_position.col(1) - data.node_position.col(0)).normalized()).norm(),
-            1e-15)
+  EXPECT_LE(
+      (change.springs[0].direction - (data.node_position.col(1) - data.node_position.col(0)).normalized())
+          .norm(),
+      1e-15)
       << "along the connection";
   EXPECT_EQ(change.springs[1].direction, Vector3::UnitZ());
   EXPECT_EQ(change.springs[1].stiffness, -6e3);
@@ -122,7 +124,8 @@ TEST(IdentificationLoader, TakesOverridesOfParameters) {
 
 TEST(IdentificationLoader, ReadsMassesOfTheBodyOrAMatrix) {
   const IdentificationFiles files;
-  const auto body = load(files, {{"{file: masses.csv}", "{total: 3 kg, centre: [1 mm, 0, 0], inertia: [2, 3, 4]}"}});
+  const auto body =
+      load(files, {{"{file: masses.csv}", "{total: 3 kg, centre: [1 mm, 0, 0], inertia: [2, 3, 4]}"}});
   ASSERT_TRUE(body.task.rigid_body);
   EXPECT_EQ(body.task.rigid_body->mass, 3);
   EXPECT_EQ(body.task.rigid_body->centre.x(), 1e-3);
@@ -149,10 +152,11 @@ identification:
   write_matrix_market(files / "K.mtx", SparseMatrix((block.K + transposed) / 2), true);
   write_matrix_market(files / "M.mtx", block.M, true);
   for (const char* mass : {", mass: M.mtx", ""}) {
-    const auto loaded = load_identification(files.write(
-        "files.yaml", "wishbone: 1\nidentification:\n  measured: {from: model}\n  find: corrected\n"
-                      "  model: {nodes: test_nodes.csv, stiffness: K.mtx" +
-                          std::string(mass) + "}\n"));
+    const auto loaded = load_identification(
+        files.write("files.yaml",
+                    "wishbone: 1\nidentification:\n  measured: {from: model}\n  find: corrected\n"
+                    "  model: {nodes: test_nodes.csv, stiffness: K.mtx" +
+                        std::string(mass) + "}\n"));
     EXPECT_LE((MatrixX(loaded.task.model->K) - MatrixX(block.K)).norm(), 1e-12 * block.K.norm());
     EXPECT_LE((MatrixX(loaded.task.model->M) - MatrixX(block.M)).norm(), 1e-12 * block.M.norm());
     EXPECT_EQ(loaded.task.measured.mode_count(), 30) << "elastic modes of the free model";

@@ -68,7 +68,8 @@ const ModeSet& modes_of(const CompiledScene& compiled) {
 
 TEST_F(IdentifiedBodies, HaveTheModesOfTheirModel) {
   const CompiledScene identified = compile(load());
-  const CompiledScene block = compile(load({{std::string("modes:\n") + std::string(kModes), "modes: all\n"}}));
+  const CompiledScene block =
+      compile(load({{std::string("modes:\n") + std::string(kModes), "modes: all\n"}}));
   ASSERT_EQ(modes_of(identified).mode_count(), 30);
   EXPECT_LE((modes_of(identified).omega - modes_of(block).omega).cwiseAbs().maxCoeff(),
             1e-8 * modes_of(block).omega.maxCoeff());
@@ -76,7 +77,10 @@ TEST_F(IdentifiedBodies, HaveTheModesOfTheirModel) {
 }
 
 TEST_F(IdentifiedBodies, NeedNoBlock) {
-  const Scene scene = load({{kBlock, ""}, {kModes, "        measured: {file: test.csv}\n        support: {springs: [{nodes: [1, 2, 11, 12], stiffness: 47 kN/m}]}\n"}});
+  const Scene scene = load({{kBlock, ""},
+                            {kModes,
+                             "        measured: {file: test.csv}\n        support: {springs: [{nodes: [1, 2, "
+                             "11, 12], stiffness: 47 kN/m}]}\n"}});
   EXPECT_EQ(scene.bodies[0].flexible->node_ids.size(), 12u);
   EXPECT_EQ(modes_of(compile(scene)).mode_count(), 30);
   EXPECT_THAT(scene.data_files, testing::Contains((files_ / "test_shapes.csv").string()));
@@ -103,7 +107,8 @@ TEST_F(IdentifiedBodies, AreDampedAsMeasuredUnlessTheSceneSaysOtherwise) {
 
 TEST_F(IdentifiedBodies, WantAsManyDampingRatiosAsModes) {
   for (const auto& [list, count] : {std::pair<const char*, const char*>{"[1 %]", "1"}, {"[1 %, 2 %]", "2"}}) {
-    const Scene scene = load({{"      modes:\n", std::string("      damping: ") + list + "\n      modes:\n"}});
+    const Scene scene =
+        load({{"      modes:\n", std::string("      damping: ") + list + "\n      modes:\n"}});
     EXPECT_EQ(message([&] { compile(scene); }),
               std::string("scene.yaml:5:3: bodies.frame.flexible.damping: error: there are ") + count +
                   " damping ratios for 30 identified modes\n  give one ratio for all modes, or one per mode");
@@ -112,20 +117,24 @@ TEST_F(IdentifiedBodies, WantAsManyDampingRatiosAsModes) {
 
 TEST_F(IdentifiedBodies, MustBeFree) {
   EXPECT_EQ(message([&] {
-              load({{kModes, std::string(kModes) + "        find: held\n        new_support: {joints: [{nodes: [1, 2, 12], "
-                                                   "axes: xyz}]}\n"}});
+              load({{kModes, std::string(kModes) +
+                                 "        find: held\n        new_support: {joints: [{nodes: [1, 2, 12], "
+                                 "axes: xyz}]}\n"}});
             }),
             "scene.yaml:13:7: bodies.frame.flexible.modes: error: a flexible body needs free-free modes\n"
             "  write 'find: free', 'changed' or 'corrected'");
 }
 
 TEST_F(IdentifiedBodies, MayBeCorrectedModels) {
-  EXPECT_EQ(modes_of(compile(load({{kModes, std::string(kModes) + "        find: corrected\n"}}))).mode_count(), 30);
+  EXPECT_EQ(
+      modes_of(compile(load({{kModes, std::string(kModes) + "        find: corrected\n"}}))).mode_count(),
+      30);
 }
 
 TEST_F(IdentifiedBodies, HaveTheirOriginAtTheMassCentreOfTheChangedStructure) {
-  const Scene scene = load({{kModes, std::string(kModes) +
-                                         "        find: changed\n        change: {masses: [{node: 12, mass: 40}]}\n"}});
+  const Scene scene =
+      load({{kModes, std::string(kModes) +
+                         "        find: changed\n        change: {masses: [{node: 12, mass: 40}]}\n"}});
   const CompiledScene compiled = compile(scene);
   EXPECT_LE((scene.bodies[0].flexible->node_position - modes_of(compiled).node_position).norm(), 1e-12);
   EXPECT_GT(scene.bodies[0].flexible->node_position.rowwise().mean().norm(), 0.01);
@@ -133,14 +142,20 @@ TEST_F(IdentifiedBodies, HaveTheirOriginAtTheMassCentreOfTheChangedStructure) {
 
 TEST_F(IdentifiedBodies, TellWhereTheIdentificationFailed) {
   const Scene scene = load({{"{from: model}", "{from: model, modes: 5}"}});
-  EXPECT_EQ(message([&] { compile(scene); }),
-            "scene.yaml:5:3: bodies.frame: support: error: there must be more modes than rigid-body motions on "
-            "springs (got 5 modes, 6 such motions)\n  measure more modes");
-  EXPECT_EQ(message([&] { load({{"{from: model}", "{file: absent.csv}"}}); }),
+  EXPECT_EQ(
+      message([&] { compile(scene); }),
+      "scene.yaml:5:3: bodies.frame: support: error: there must be more modes than rigid-body motions on "
+      "springs (got 5 modes, 6 such motions)\n  measure more modes");
+  EXPECT_EQ(message([&] {
+              load({{"{from: model}", "{file: absent.csv}"}});
+            }),
             "scene.yaml:14:26: bodies.frame.flexible.modes.measured.file: error: there is no file "
             "absent_nodes.csv (got 'absent.csv')\n  names are relative to the file that they stand in");
-  EXPECT_THAT(message([&] { load({{"node: 1}", "node: 13}"}}); }),
-              AllOf(HasSubstr("the body 'frame' has no such node (got '13')"), HasSubstr("its nodes are 1 to 12")));
+  EXPECT_THAT(
+      message([&] {
+        load({{"node: 1}", "node: 13}"}});
+      }),
+      AllOf(HasSubstr("the body 'frame' has no such node (got '13')"), HasSubstr("its nodes are 1 to 12")));
 }
 
 TEST_F(IdentifiedBodies, AreListedInThePlan) {
