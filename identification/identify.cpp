@@ -77,9 +77,9 @@ ModalData as_modal_data(const IdentificationTask& task, const PreparedStructure&
   if (!(solution.modes.lambda.minCoeff() > 0))
     throw InputError(
         {"identification", "an identified mode has no stiffness",
-                      fmt::format("lambda = {:.3g} rad2/s2", solution.modes.lambda.minCoeff()),
-                      "check the stiffness of the support, for no more can be taken off than the modes were measured on; "
-                      "expand fewer modes, if they were expanded"});
+         fmt::format("lambda = {:.3g} rad2/s2", solution.modes.lambda.minCoeff()),
+         "check the stiffness of the support, for no more can be taken off than the modes were measured on; "
+         "expand fewer modes, if they were expanded"});
   ModalData modes = s.data;
   modes.title = task.title;
   modes.node_mass = masses_of_nodes(task, s.data, solution);

@@ -69,7 +69,8 @@ void warn_of_data(const PreparedStructure& s, const Modes& unit, Judgement& judg
       if (share[j] > kMostlyRigid) rigid.push_back(static_cast<int>(j) + 1);
     if (!rigid.empty())
       judgement.warnings.push_back(
-          fmt::format("mode{} {} {} mostly rigid-body motion, as on a support, and no support is named: the frequencies of "
+          fmt::format("mode{} {} {} mostly rigid-body motion, as on a support, and no support is named: the "
+                      "frequencies of "
                       "the other modes are those on it",
                       rigid.size() > 1 ? "s" : "", mode_list(rigid), rigid.size() > 1 ? "are" : "is"));
   }
