@@ -84,7 +84,7 @@ VectorX frequencies(const ModalData& modes) {
 }
 
 /// The truth, when the structure is far enough from a mechanism to speak of eight digits.
-VectorX free_frequencies(const TestStructure& s) {
+VectorX frequencies_of_sound(const TestStructure& s) {
   const VectorX f = true_frequencies(s.K, s.M, true);
   RC_PRE(f[0] > 1e-2 * f[f.size() - 1]);
   return f;
@@ -101,7 +101,7 @@ double difference(const MatrixX& a, const MatrixX& b) {
 
 RC_GTEST_PROP(AnyCompleteSet, GivesTheFreeModes, ()) {
   const TestStructure s = some_structure();
-  const VectorX truth = free_frequencies(s);
+  const VectorX truth = frequencies_of_sound(s);
   const ModalData found = identify(free_from(measured_on(s, some_support(s)))).modes;
   RC_ASSERT(found.omega.size() == truth.size());
   RC_ASSERT(worst_relative(frequencies(found), truth) <= 1e-8);
@@ -113,7 +113,7 @@ RC_GTEST_PROP(AnyCompleteSet, GivesTheFreeModes, ()) {
 
 RC_GTEST_PROP(AnySupport, HoldsAndReleasesWithoutATrace, ()) {
   const TestStructure s = some_structure();
-  const VectorX truth = free_frequencies(s);
+  const VectorX truth = frequencies_of_sound(s);
   const ModalData free = measured_on(s, {});
   const ModalData held = identify(held_on(free, some_support(s))).modes;
   const ModalData released = identify(free_from(held)).modes;
@@ -124,7 +124,7 @@ RC_GTEST_PROP(AnySupport, HoldsAndReleasesWithoutATrace, ()) {
 
 RC_GTEST_PROP(AnyIncompleteSet, IsHeldAlikeInBothSpacesWithoutChangeOfMass, ()) {
   const TestStructure s = some_structure();
-  free_frequencies(s);
+  frequencies_of_sound(s);
   const auto elastic = static_cast<int>(s.n()) - 6;
   const ModalData measured = measured_on(s, {}, *rc::gen::inRange(1, elastic + 1));
   IdentificationTask task = held_on(measured, some_springs(s));
@@ -138,7 +138,7 @@ RC_GTEST_PROP(AnyIncompleteSet, IsHeldAlikeInBothSpacesWithoutChangeOfMass, ()) 
 
 RC_GTEST_PROP(AnyIncompleteSet, BoundsTheFreeFrequenciesFromAbove, ()) {
   const TestStructure s = some_structure();
-  const VectorX truth = free_frequencies(s);
+  const VectorX truth = frequencies_of_sound(s);
   const Support support = some_support(s);
   const int held = support.joints.empty() ? 6 : 0;
   const auto count = *rc::gen::inRange(held + 1, static_cast<int>(truth.size()) + held + 1);
@@ -167,7 +167,7 @@ ModalData renumbered(const ModalData& data, const std::vector<int>& order) {
 
 RC_GTEST_PROP(NumbersOfNodes, MakeNoDifference, ()) {
   const TestStructure s = some_structure();
-  const VectorX truth = free_frequencies(s);
+  const VectorX truth = frequencies_of_sound(s);
   const ModalData measured = measured_on(s, some_support(s));
   std::vector<int> order(s.node_ids.size());
   std::iota(order.begin(), order.end(), 0);
@@ -192,7 +192,7 @@ ModalData seen_from(const Matrix3& R, const ModalData& data) {
 
 RC_GTEST_PROP(Axes, MakeNoDifferenceButToComponents, ()) {
   const TestStructure s = some_structure();
-  free_frequencies(s);
+  frequencies_of_sound(s);
   std::mt19937 random(seed());
   const Matrix3 R = Eigen::AngleAxisd(2.2, some_direction(random)).matrix();
   const ModalData measured = measured_on(s, some_support(s));

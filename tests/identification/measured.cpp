@@ -63,4 +63,48 @@ double plane_distance(const MatrixX& A, const MatrixX& B, const SparseMatrix& M)
   return std::sqrt((left.transpose() * (M * left)).diagonal().maxCoeff());
 }
 
+Support chassis_springs() {
+  return springs_at({1, 2, 17, 18}, 47e3);
+}
+
+Support chassis_springs_with_masses() {
+  Support support = chassis_springs();
+  support.masses = {{1, 3}, {18, 1}};
+  return support;
+}
+
+Support chassis_sensors() {
+  Support support;
+  support.masses = {{3, 2}, {12, 0.5}};
+  return support;
+}
+
+Support chassis_bounce_springs() {
+  Support support;
+  for (const int node : {1, 2, 17}) support.springs.push_back({node, Vector3::UnitZ(), 47e3});
+  support.masses = {{3, 2}};
+  return support;
+}
+
+Support chassis_joint_and_springs() {
+  Support support = joints_at({{1, "xyz"}});
+  support.springs = {{18, Vector3::UnitY(), 3e5}, {2, Vector3::UnitZ(), 2e5}, {17, Vector3::UnitZ(), 4e5}};
+  support.masses = {{20, 0.4}};
+  return support;
+}
+
+IdentificationTask task_on(const TestStructure& structure, const Support& support, Eigen::Index lowest) {
+  IdentificationTask task;
+  task.measured = measured_on(structure, support, lowest);
+  return task;
+}
+
+VectorX frequencies(const Identification& found) {
+  return found.modes.omega / (2 * std::numbers::pi);
+}
+
+VectorX free_frequencies(const TestStructure& structure) {
+  return true_frequencies(structure.K, structure.M, true);
+}
+
 }  // namespace wishbone
