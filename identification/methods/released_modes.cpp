@@ -74,6 +74,20 @@ ElasticPart elastic_part(const MatrixX& shapes, const SparseMatrix& M, const Mat
   return {part.V(Eigen::all, kept) * scale.asDiagonal(), part.X(Eigen::all, kept) * scale.asDiagonal()};
 }
 
+/// Leaves out the highest modes as long as they lie 5 % above the highest measured frequency and nothing shows that they
+/// are right: of such motions an incomplete set knows nothing.
+void leave_out_unknown(double highest_lambda, ReleasedModes& released) {
+  constexpr double kAbove = 1.1, kSmallResidual = 0.1;  // both of lambda
+  Eigen::Index count = released.modes.count();
+  while (count > 1 && released.modes.lambda[count - 1] > kAbove * highest_lambda &&
+         !(released.residual[count - 1] <= kSmallResidual))
+    --count;
+  released.modes = released.modes.lowest(count);
+  released.coefficients = MatrixX(released.coefficients.leftCols(count));
+  released.K_shapes = MatrixX(released.K_shapes.leftCols(count));
+  released.residual = VectorX(released.residual.head(count));
+}
+
 }  // namespace
 
 int held_motions(const SupportMatrices& support, const MatrixX& rigid) {
@@ -95,17 +109,13 @@ ReleasedModes release(const Modes& supported, const SparseMatrix& M, const Suppo
 
   const int held_by_joints = held_rigid_freedoms(support.D, rigid);
   const Eigen::Index sprung = held - held_by_joints;
-  Eigen::Index count = std::min(unit.count() - sprung, part.X.cols());
+  const Eigen::Index count = std::min(unit.count() - sprung, part.X.cols());
   if (count < 1)
     refuse("there must be more modes than rigid-body motions on springs",
            fmt::format("{} modes, {} such motions", unit.count(), sprung), "measure more modes");
 
   const MatrixX K_X = part.X.transpose() * F * part.V;
   const Modes small = solve_eigenproblem((K_X + K_X.transpose()) / 2, part.X.transpose() * (M * part.X));
-  // above the highest measured frequency an incomplete set knows nothing of the free structure
-  const int directions = joint_directions(support.D);
-  if (unit.count() < M.rows() - directions)
-    count = std::clamp<Eigen::Index>((small.lambda.array() <= unit.lambda.maxCoeff()).count(), 1, count);
   ReleasedModes released;
   released.modes = {small.lambda.head(count), part.X * small.shapes.leftCols(count)};
   released.coefficients = part.V * small.shapes.leftCols(count);
@@ -113,11 +123,14 @@ ReleasedModes release(const Modes& supported, const SparseMatrix& M, const Suppo
   released.modes.shapes *= signs.asDiagonal();
   released.coefficients *= signs.asDiagonal();
   released.K_shapes = F * released.coefficients;
+  const int directions = joint_directions(support.D);
   released.lost_modes = directions - held_by_joints;
   released.residual =
       released.lost_modes > 0
           ? VectorX::Constant(count, std::numeric_limits<double>::quiet_NaN())
           : relative_residuals(released.modes, released.K_shapes, M, SparseMatrix(0, M.rows()));
+  const bool is_complete = unit.count() + rigid.cols() - held >= M.rows() - directions;
+  if (!is_complete) leave_out_unknown(unit.lambda.maxCoeff(), released);
   return released;
 }
 

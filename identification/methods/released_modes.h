@@ -35,8 +35,8 @@ struct ReleasedModes {
 ///
 /// A given mode that is nearly rigid brings in little but its errors: directions of the set whose elastic share
 /// of modal mass is below `least_elastic_share` are left out. Of the rest as many modes are returned as the set
-/// can be expected to carry: m less the rigid motions that springs turned into modes, and of an incomplete set
-/// those up to the highest measured frequency.
+/// can be expected to carry: m less the rigid motions that springs turned into modes, and of an incomplete set none
+/// that lie 5 % above the highest measured frequency with a large residual.
 ///
 /// The bound is that of Krylov and Weinstein, |K x - lambda M x| in the metric of M^-1.
 /// `supported`: modes of unit modal mass in M + M_s, D Psi = 0; `M`: of the free structure; `rigid`: Psi_0,
