@@ -50,6 +50,11 @@ double worst_percent(const VectorX& found, const VectorX& truth, Eigen::Index co
   return 100 * (found.head(count).array() / truth.head(count).array() - 1).abs().maxCoeff();
 }
 
+/// A complete set has nothing to estimate but rounding.
+double shown(double estimate) {
+  return estimate < 1e-12 ? 0 : estimate;
+}
+
 /// The source's modes of the free structure, its rigid-body modes dropped, each space for itself.
 VectorX by_the_source(const Chassis& c, const SupportMatrices& support, const Modes& given, Space space) {
   if (support.D.rows() > 0) return release_from_joints(given, c.M, support.D, c.rigid).frequency_hz();
@@ -69,7 +74,7 @@ void print_row(const Chassis& c, const std::string& name, const Support& held, E
   const double difference = (physical.array() / modal.array() - 1).abs().maxCoeff();
   fmt::print("| {} | {} | {} | {:.2g} | {:.2g} | {:.2g} | {:.2g} | {:.2g} | {} |\n", name, kept, f.size(),
              worst_percent(f, c.free_hz, 3), worst_percent(f, c.free_hz, 1000),
-             estimate.head(std::min<Eigen::Index>(3, f.size())).maxCoeff(),
+             shown(estimate.head(std::min<Eigen::Index>(3, f.size())).maxCoeff()),
              worst_percent(modal, c.free_hz, 3), worst_percent(modal, c.free_hz, 1000),
              support.D.rows() > 0 ? "" : fmt::format("{:.0e}", difference));
 }

@@ -497,7 +497,7 @@ File File::open(const std::string& path) {
   if (!fs::exists(path, unknown)) throw InputError({path, "no such file", "", "check the path"});
   if (fs::is_directory(path, unknown)) throw InputError({path, "this is a folder, not an HDF5 file", "", ""});
   if (H5Fis_hdf5(path.c_str()) == 0)
-    throw InputError({path, "this is not an HDF5 file", "", "give a result file written by wishbone (.h5)"});
+    throw InputError({path, "this is not an HDF5 file", "", "give a file written by wishbone (.h5)"});
   Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   if (file.get() < 0)
     fail_reading(path, "cannot open the file", "is a program still writing it, or was it cut short?");

@@ -136,6 +136,9 @@ Judgement judge(const IdentificationTask& task, const PreparedStructure& s, cons
   judgement.auto_mac = modal_assurance(modes.shapes, modes.shapes);
   judgement.input_mac = modal_assurance(modes.shapes, s.data.shapes);
   judgement.lost_modes = solution.lost_modes;
+  if (task.keep && *task.keep > modes.mode_count())
+    judgement.notes.push_back(
+        fmt::format("{} modes were to be kept, {} were found", *task.keep, modes.mode_count()));
 
   const SparseMatrix M_t = s.M + s.support.M_s;
   const Modes unit = mass_normalised(s.measured(), M_t);
