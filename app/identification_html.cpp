@@ -107,8 +107,10 @@ std::vector<Column> mode_columns(const Identification& identification) {
     columns.push_back({"Estimated error<small>%</small>",
                        [&](Eigen::Index i) { return percent_text(at(judgement.error_estimate, i)); }});
   if (judgement.residual.size() > 0)
-    columns.push_back({"Residual bound<small>% of &lambda;</small>",
-                       [&](Eigen::Index i) { return percent_text(at(judgement.residual, i)); }});
+    columns.push_back({"Residual bound<small>%</small>", [&](Eigen::Index i) {
+                         return percent_text(at(judgement.residual, i) /
+                                             2);  // of omega^2: half of it is of f
+                       }});
   columns.push_back(
       {"Damping &zeta;<small>%</small>", [&](Eigen::Index i) { return percent_text(at(damping, i)); }});
   if (judgement.reference) add_reference_columns(columns, *judgement.reference);
@@ -134,10 +136,7 @@ std::string legend(const Judgement& judgement) {
   if (judgement.error_estimate.size() > 0)
     text += "Estimated error: of the frequency, by what the measured set leaves open. ";
   if (judgement.residual.size() > 0)
-    text +=
-        "Residual bound: |&lambda; &minus; &lambda;<sub>true</sub>| / &lambda; that the kept modes leave "
-        "open, "
-        "&lambda; = &omega;&sup2;. ";
+    text += "Residual bound: how far it is at most from a frequency of the structure, by the same. ";
   if (judgement.frequency_std_hz.size() > 0)
     text += "Standard deviation: under the given measurement noise. ";
   if (judgement.reference)

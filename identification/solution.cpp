@@ -97,7 +97,9 @@ void change(const IdentificationTask& task, const PreparedStructure& s, const Re
   out.M = s.M + d.dM;
   out.D = D;
   out.modes = change_structure(task.space, set, s.M, d.dM, d.dK);
-  if (D.rows() > 0) out.modes = hold_by_joints_null_space(out.modes, out.M, D);
+  if (D.rows() > 0)
+    out.modes = task.space == Space::kModal ? hold_by_joints_null_space(out.modes, out.M, D)
+                                            : hold_by_joints_multipliers(out.modes, out.M, D);
   const bool still_free = task.goal == Goal::kChanged;
   if (still_free) {
     const Eigen::Index elastic = out.modes.count() - s.rigid.cols();

@@ -77,7 +77,7 @@ constexpr Broken kCatalogue[] = {
            "  the extensions are .h5, .hdf5, .unv, .uff, .csv"},
     Broken{"FileMalformed", "file: test.csv", "file: words.h5",
            "words.h5: error: this is not an HDF5 file\n"
-           "  give a result file written by wishbone (.h5)"},
+           "  give a file written by wishbone (.h5)"},
     Broken{"MoreModesThanThereAre", "modes: = modes}", "modes: 37}",
            "frame.yaml:6:37: identification.measured.modes: error: a whole number from 1 to 36 is wanted "
            "here (got '37')\n"
