@@ -7,8 +7,8 @@ install(TARGETS wishbone_command RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 foreach(room IN ITEMS core bodies joints forces identification solver models)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room}
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/wishbone FILES_MATCHING PATTERN "*.h"
-    # private: the first needs the headers of SUNDIALS, the second is half of the scene loader
-    PATTERN sundials.h EXCLUDE PATTERN scene_sections.h EXCLUDE PATTERN scenes EXCLUDE
+    # private: the first needs the headers of SUNDIALS, the others are halves of loaders
+    PATTERN sundials.h EXCLUDE PATTERN scene_sections.h EXCLUDE PATTERN identification_sections.h EXCLUDE PATTERN scenes EXCLUDE
     REGEX models/identification$ EXCLUDE)
 endforeach()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/models/scenes ${PROJECT_SOURCE_DIR}/models/identification
