@@ -1,22 +1,13 @@
 #include <gtest/gtest.h>
 
-#include <ostream>
 #include <string>
 
 #include "core/error.h"
+#include "models/broken_text.h"
 #include "models/identification_files.h"
 
 namespace wishbone {
 namespace {
-
-/// The good identification with one text replaced, and the whole message that it must give.
-struct Broken {
-  const char* name;
-  std::string_view text;
-  std::string_view replacement;
-  const char* message;
-  friend std::ostream& operator<<(std::ostream& out, const Broken& broken) { return out << broken.name; }
-};
 
 class BrokenIdentifications : public testing::TestWithParam<Broken> {};
 

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include <ostream>
 #include <string>
 
 #include "core/error.h"
+#include "models/broken_text.h"
 #include "models/scene_loader.h"
 #include "text_files.h"
 
@@ -60,15 +60,6 @@ vehicle: {chassis: arm, steering: {front: pivot}}
 analysis: {duration: 2 s, integrator: bdf, rtol: 1e-6}
 output: {interval: 5 ms, nodes: {beam: [1, 12]}}
 )";
-
-/// The good scene with one text replaced, and the whole message that it must give.
-struct Broken {
-  const char* name;
-  std::string_view text;
-  std::string_view replacement;
-  const char* message;
-  friend std::ostream& operator<<(std::ostream& out, const Broken& broken) { return out << broken.name; }
-};
 
 class BrokenScenes : public testing::TestWithParam<Broken> {};
 

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "models/scene_loader.h"
+#include "mutated_text.h"
 #include "text_files.h"
 
 namespace wishbone {
@@ -18,34 +19,7 @@ std::string text_of(const std::filesystem::path& file) {
   return text.str();
 }
 
-/// A few random edits: bytes changed, removed, doubled, or a piece copied elsewhere.
-std::string mutated(std::string text, std::mt19937& random) {
-  const auto below = [&](std::size_t n) {
-    return static_cast<std::size_t>(random() % std::max<std::size_t>(n, 1));
-  };
-  constexpr std::string_view kTelling = "[]{}:,-#&*!|>'\"%@`=\n \t.e0123456789~?<\x80\x00";
-  for (std::size_t edits = 1 + below(4); edits > 0; --edits) {
-    const std::size_t at = below(text.size());
-    switch (random() % 5) {
-      case 0:
-        text[at] = kTelling[below(kTelling.size())];
-        break;
-      case 1:
-        text.erase(at, 1 + below(20));
-        break;
-      case 2:
-        text.insert(at, 1 + below(3), kTelling[below(kTelling.size())]);
-        break;
-      case 3:
-        text.insert(at, text.substr(below(text.size()), below(60)));
-        break;
-      default:
-        text[at] = static_cast<char>(random());
-        break;
-    }
-  }
-  return text;
-}
+constexpr Mutation kMutation{"[]{}:,-#&*!|>'\"%@`=\n \t.e0123456789~?<\x80\x00", 4, 20, 60};
 
 TEST(SceneLoader, EitherLoadsOrRefusesWhateverItIsGiven) {
   const TextFiles files;
@@ -55,7 +29,7 @@ TEST(SceneLoader, EitherLoadsOrRefusesWhateverItIsGiven) {
   int loaded = 0, refused = 0;
   for (unsigned seed = 1; seed <= 3000; ++seed) {
     std::mt19937 random(seed);
-    const auto file = files.write("scene.yaml", mutated(seed % 2 == 0 ? steer : whole, random));
+    const auto file = files.write("scene.yaml", mutated(seed % 2 == 0 ? steer : whole, kMutation, random));
     try {
       load_scene(file);
       ++loaded;

@@ -7,39 +7,13 @@
 #include "core/error.h"
 #include "identification/formats/csv_modal_data.h"
 #include "identification/formats/matrix_market.h"
+#include "mutated_text.h"
 #include "text_files.h"
 
 namespace wishbone {
 namespace {
 
-/// A few random edits: bytes changed, removed, doubled, or a piece copied elsewhere.
-std::string mutated(std::string text, std::mt19937& random) {
-  const auto below = [&](std::size_t n) {
-    return static_cast<std::size_t>(random() % std::max<std::size_t>(n, 1));
-  };
-  constexpr std::string_view kTelling = "0123456789+-.eE,;\t \n\r\"#%[]xyz/^";
-  for (std::size_t edits = 1 + below(2); edits > 0; --edits) {
-    const std::size_t at = below(text.size());
-    switch (random() % 5) {
-      case 0:
-        text[at] = kTelling[below(kTelling.size())];
-        break;
-      case 1:
-        text.erase(at, 1 + below(12));
-        break;
-      case 2:
-        text.insert(at, 1 + below(3), kTelling[below(kTelling.size())]);
-        break;
-      case 3:
-        text.insert(at, text.substr(below(text.size()), below(40)));
-        break;
-      default:
-        text[at] = static_cast<char>(random());
-        break;
-    }
-  }
-  return text;
-}
+constexpr Mutation kMutation{"0123456789+-.eE,;\t \n\r\"#%[]xyz/^", 2, 12, 40};
 
 struct Outcomes {
   int read = 0, refused = 0;
@@ -53,7 +27,7 @@ Outcomes fuzz(const std::string& text, unsigned seeds,
   for (unsigned seed = 1; seed <= seeds; ++seed) {
     std::mt19937 random(seed);
     try {
-      read(files.write("a", mutated(text, random)));
+      read(files.write("a", mutated(text, kMutation, random)));
       ++outcomes.read;
     } catch (const InputError& e) {
       EXPECT_NE(e.diagnostic().where.find(" (byte "), std::string::npos)
