@@ -29,7 +29,7 @@ struct Options {
   bool json = false;
 };
 
-/// Names of the files of the corrected matrices.
+/// Names of the files of the matrices.
 std::string mass_file(const std::string& prefix) {
   return prefix + "_M.mtx";
 }
@@ -102,8 +102,10 @@ void add_identify(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--html", options->html, "write a page with tables and pictures to this file");
   command->add_option("--pictures", options->pictures,
                       "write mode shapes and MAC matrices as SVG into this folder");
-  command->add_option("--matrices", options->matrices,
-                      "write a corrected model to PREFIX_M.mtx and PREFIX_K.mtx (MatrixMarket)");
+  command->add_option(
+      "--matrices", options->matrices,
+      "write mass and stiffness to PREFIX_M.mtx and PREFIX_K.mtx (MatrixMarket): of a corrected model,\n"
+      "else what the modes stand for");
   command->add_flag("--json", options->json, "print JSON");
   command->footer(
       "What the file may say: docs/identification.md.\n\n"
