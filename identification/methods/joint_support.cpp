@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "identification/methods/null_space.h"
 
 namespace wishbone {
 namespace {
@@ -87,14 +88,8 @@ Modes hold_by_joints_multipliers(const Modes& free, const SparseMatrix& M, const
 
 Modes hold_by_joints_null_space(const Modes& free, const SparseMatrix& M, const SparseMatrix& D) {
   const Modes unit = mass_normalised(free, M);
-  const MatrixX C = D * unit.shapes;
-  const auto qr = pivoted(C.transpose());
-  const Eigen::Index m = unit.count(), rank = qr.rank();
-  check_mode_count(m, rank);
-  MatrixX N = MatrixX::Zero(m, m - rank);
-  N.bottomRows(m - rank).setIdentity();
-  N.applyOnTheLeft(qr.householderQ());
-
+  const MatrixX N = null_space(D * unit.shapes);
+  check_mode_count(unit.count(), unit.count() - N.cols());
   const Eigen::SelfAdjointEigenSolver<MatrixX> eigen(N.transpose() * unit.lambda.asDiagonal() * N);
   Modes held{eigen.eigenvalues(), unit.shapes * (N * eigen.eigenvectors())};
   fix_signs(held.shapes);

@@ -2,35 +2,31 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <vector>
 
 #include "core/error.h"
 #include "identification/methods/lowest_modes.h"
+#include "identification/methods/null_space.h"
 
 namespace wishbone {
 namespace {
 
 /// Sparse orthonormal basis N of the null space of D (n x (n - rank)): joints touch few freedoms, over which it is
 /// dense; the others keep their own coordinates.
-SparseMatrix null_space(const SparseMatrix& D) {
+SparseMatrix sparse_null_space(const SparseMatrix& D) {
   std::vector<int> touched, untouched;
   for (int j = 0; j < D.cols(); ++j) (D.col(j).nonZeros() > 0 ? touched : untouched).push_back(j);
-  const Eigen::ColPivHouseholderQR<MatrixX> qr(MatrixX(D)(Eigen::all, touched).transpose());
-  const Eigen::Index t = static_cast<Eigen::Index>(touched.size()), left = t - qr.rank();
-  MatrixX basis = MatrixX::Zero(t, left);
-  basis.bottomRows(left).setIdentity();
-  basis.applyOnTheLeft(qr.householderQ());
+  const MatrixX basis = null_space(MatrixX(D)(Eigen::all, touched));
 
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t k = 0; k < untouched.size(); ++k)
     entries.emplace_back(untouched[k], static_cast<int>(k), 1.0);
   const int first = static_cast<int>(untouched.size());
-  for (int j = 0; j < left; ++j)
-    for (int i = 0; i < t; ++i)
+  for (int j = 0; j < basis.cols(); ++j)
+    for (int i = 0; i < basis.rows(); ++i)
       entries.emplace_back(touched[static_cast<std::size_t>(i)], first + j, basis(i, j));
-  SparseMatrix N(D.cols(), first + left);
+  SparseMatrix N(D.cols(), first + basis.cols());
   N.setFromTriplets(entries.begin(), entries.end());
   return N;
 }
@@ -54,7 +50,7 @@ Modes model_modes(const SparseMatrix& K, const SparseMatrix& M, const SupportMat
                   std::optional<Eigen::Index> count) {
   const SparseMatrix K_t = K + support.K_s, M_t = M + support.M_s;
   if (support.D.rows() == 0) return solve_sparse(K_t, M_t, count);
-  const SparseMatrix N = null_space(support.D);
+  const SparseMatrix N = sparse_null_space(support.D);
   const SparseMatrix N_T = N.transpose();
   Modes modes = solve_sparse(N_T * K_t * N, N_T * M_t * N, count);
   modes.shapes = N * modes.shapes;
