@@ -9,17 +9,29 @@ namespace wishbone {
 using MarkerIndex = int;
 
 /// Motion of a marker, world components.
-struct MarkerState {
-  Matrix3 R_WM = Matrix3::Identity();
-  Vector3 p_WM = Vector3::Zero();  ///< [m]
-  Vector3 w_WM = Vector3::Zero();  ///< angular velocity [rad/s]
-  Vector3 v_WM = Vector3::Zero();  ///< velocity of Mo [m/s]
+template <class T>
+struct MarkerStateT {
+  Matrix3T<T> R_WM = Matrix3T<T>::Identity();
+  Vector3T<T> p_WM = Vector3T<T>::Zero();  ///< [m]
+  Vector3T<T> w_WM = Vector3T<T>::Zero();  ///< angular velocity [rad/s]
+  Vector3T<T> v_WM = Vector3T<T>::Zero();  ///< velocity of Mo [m/s]
 };
+using MarkerState = MarkerStateT<double>;
+
+/// Acceleration of a marker, world components.
+template <class T>
+struct MarkerAccelerationT {
+  Vector3T<T> alpha = Vector3T<T>::Zero();  ///< angular [rad/s^2]
+  Vector3T<T> a = Vector3T<T>::Zero();      ///< of Mo [m/s^2]
+};
+using MarkerAcceleration = MarkerAccelerationT<double>;
 
 /// Force and moment that act on the body at a marker's origin, world components.
-struct Wrench {
-  Vector3 t = Vector3::Zero();  ///< moment about Mo [N m]
-  Vector3 f = Vector3::Zero();  ///< force [N]
+template <class T>
+struct WrenchT {
+  Vector3T<T> t = Vector3T<T>::Zero();  ///< moment about Mo [N m]
+  Vector3T<T> f = Vector3T<T>::Zero();  ///< force [N]
 };
+using Wrench = WrenchT<double>;
 
 }  // namespace wishbone

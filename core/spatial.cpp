@@ -12,17 +12,12 @@ Quaternion quaternion_from_rotation_vector(const Vector3& phi) {
   return {std::cos(0.5 * angle), s * phi.x(), s * phi.y(), s * phi.z()};
 }
 
-Matrix3 rotation_from_quaternion(const Eigen::Ref<const Eigen::Vector4d>& q_wxyz) {
-  const double s = 1.0 / q_wxyz.norm();
-  return Quaternion(s * q_wxyz[0], s * q_wxyz[1], s * q_wxyz[2], s * q_wxyz[3]).toRotationMatrix();
-}
-
-Eigen::Vector4d quaternion_rate(const Eigen::Ref<const Eigen::Vector4d>& q_wxyz, const Vector3& w_FM_M) {
-  const double w = q_wxyz[0];
-  const Vector3 u = q_wxyz.tail<3>();
-  Eigen::Vector4d rate;
-  rate << -0.5 * u.dot(w_FM_M), 0.5 * (w * w_FM_M + u.cross(w_FM_M));
-  return rate;
+Vector3 rotation_vector_from_quaternion(const Quaternion& Q) {
+  const double sign = Q.w() < 0 ? -1.0 : 1.0;  // Q and -Q are one rotation
+  const Vector3 u = sign * Q.vec();
+  const double s = u.norm();
+  // angle/sin(angle/2); below 1e-4 its series 2 (1 + s^2/6) is exact to double precision
+  return (s < 1e-4 ? 2.0 + s * s / 3.0 : 2.0 * std::atan2(s, sign * Q.w()) / s) * u;
 }
 
 std::pair<Vector3, Vector3> perpendiculars(const Vector3& axis) {

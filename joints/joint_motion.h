@@ -6,23 +6,24 @@ namespace wishbone {
 
 /// Motion of the outboard joint frame M relative to the inboard one F, in F components:
 ///   V_FM = H v + V_drift,   (d/dt in F) V_FM = H v' + A_drift,
-/// with V = (w_FM, v_FMo). All joints here use speeds in which H' v vanishes (the rate of change seen from F), so
-/// the drift terms are those of a prescribed motion alone.
-template <int nv>
+/// with V = (w_FM, v_FMo). V_drift is that of a prescribed motion; A_drift has its acceleration and, for the joints whose
+/// hinge matrix changes as seen from F, H' v.
+template <int nv, class T = double>
 struct AcrossJoint {
-  Pose X_FM;
-  Eigen::Matrix<double, 6, nv> H = Eigen::Matrix<double, 6, nv>::Zero();  ///< hinge matrix, F components
-  Vector6 V_drift = Vector6::Zero();
-  Vector6 A_drift = Vector6::Zero();
+  PoseT<T> X_FM;
+  Eigen::Matrix<T, 6, nv> H = Eigen::Matrix<T, 6, nv>::Zero();  ///< hinge matrix, F components
 };
 
-/// The contract of a tree joint (a concept; the recursions visit concrete types):
+/// The contract of a tree joint (a concept; the recursions visit concrete types). T is the scalar, double or Dual:
 ///
 ///     static constexpr int kNq, kNv;                            numbers of coordinates and speeds
-///     void calc_across(double t, const double* q, AcrossJoint<kNv>&) const;
-///     void calc_q_rate(const double* q, const double* v, double* q_rate) const;    q' = N(q) v
+///     static constexpr bool kHasDrift;                          whether calc_drift gives anything but zero
+///     void calc_across(double t, const T* q, AcrossJoint<kNv, T>&) const;
+///     void calc_drift(double t, const T* q, const T* v, Vector6T<T>& V_drift, Vector6T<T>& A_drift) const;
+///     void calc_q_rate(const T* q, const T* v, T* q_rate) const;                   q' = N(q) v
 ///     void retract(const double* d, double* q) const;           moves q along the displacement d (size kNv), to
 ///                                                               first order q + N(q) d, staying on the manifold
+///     void calc_displacement(const double* q0, const double* q, double* d) const;  the inverse: q = q0 retracted by d
 ///     void set_neutral(double* q) const;                        the coordinates of X_FM = identity
 
 }  // namespace wishbone
