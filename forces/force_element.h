@@ -7,24 +7,30 @@
 namespace wishbone {
 
 /// What every force element is given in one evaluation.
-struct ForceInput {
-  double time = 0;                       ///< [s]
-  std::span<const MarkerState> markers;  ///< by MarkerIndex
-  std::span<const double> states;  ///< states of the element's own (tire lag, ...); empty when it has none
-  int segment = 0;  ///< the element's discrete state (road segment of a tire, ...), changed only by events
+template <class T>
+struct ForceInputT {
+  double time = 0;                           ///< [s]
+  std::span<const MarkerStateT<T>> markers;  ///< by MarkerIndex
+  std::span<const T> states;  ///< states of the element's own (tire lag, ...); empty when it has none
+  int segment = 0;   ///< the element's discrete state (road segment of a tire, ...), changed only by events
+  double angle = 0;  ///< the angle that the element's gauge had last, from which turns are counted [rad]
 };
+using ForceInput = ForceInputT<double>;
 
 /// Where every force element adds its result.
-struct ForceOutput {
-  std::span<Wrench> wrenches;     ///< by MarkerIndex; add to them
-  std::span<double> state_rates;  ///< of the element's own states; set them
-  double power = 0;               ///< set: power that the element delivers to the bodies, sum f.v + t.w [W]
+template <class T>
+struct ForceOutputT {
+  std::span<WrenchT<T>> wrenches;  ///< by MarkerIndex; add to them
+  std::span<T> state_rates;        ///< of the element's own states; set them
+  T power = T(0);                  ///< set: power that the element delivers to the bodies, sum f.v + t.w [W]
 };
+using ForceOutput = ForceOutputT<double>;
 
 /// The contract of a force element (a concept, not a base class: the evaluation calls concrete types, without
 /// virtual dispatch). A type F in the room `forces` has
 ///
-///     void apply(const ForceInput&, ForceOutput&) const;     // adds wrenches, sets power and state rates; no allocation
+///     template <class T>                                     // T: double, or Dual for exact derivatives
+///     void apply(const ForceInputT<T>&, ForceOutputT<T>&) const;  // adds wrenches, sets power and state rates; no allocation
 ///     double energy(const ForceInput&) const;                // recoverable energy stored now [J]; zero if none
 ///     int state_count() const;                               // number of states of its own
 ///     const std::string& name() const;
