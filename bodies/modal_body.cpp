@@ -5,32 +5,41 @@
 #include <cmath>
 #include <utility>
 
+#include "core/dual.h"
 #include "core/error.h"
 
 namespace wishbone {
 namespace {
 
-using Points = ModalBodyState::Points;
-using ConstVectorMap = Eigen::Map<const VectorX>;
+template <class T>
+using PointsT = typename ModalBodyStateT<T>::Points;
+using Points = PointsT<double>;
 
 /// The points of a p x 3 array as one vector, x rows first: the rows of ModalBody::shapes_.
-Eigen::Map<VectorX> stacked(Points& points) {
+template <class T>
+Eigen::Map<VectorXT<T>> stacked(Eigen::Matrix<T, Eigen::Dynamic, 3>& points) {
   return {points.data(), points.size()};
 }
-Eigen::Map<const VectorX> stacked(const Points& points) {
+template <class T>
+Eigen::Map<const VectorXT<T>> stacked(const Eigen::Matrix<T, Eigen::Dynamic, 3>& points) {
   return {points.data(), points.size()};
 }
 
 /// sum a_i x b_i over the rows of two arrays of points.
-Vector3 sum_of_cross_products(const Points& a, const Points& b) {
+template <class T>
+Vector3T<T> sum_of_cross_products(const Eigen::Matrix<T, Eigen::Dynamic, 3>& a,
+                                  const Eigen::Matrix<T, Eigen::Dynamic, 3>& b) {
   return {a.col(1).dot(b.col(2)) - a.col(2).dot(b.col(1)), a.col(2).dot(b.col(0)) - a.col(0).dot(b.col(2)),
           a.col(0).dot(b.col(1)) - a.col(1).dot(b.col(0))};
 }
 
 /// J = tr(B) 1 - B,  B = sum b_i b_i^T
-Matrix3 inertia(const Points& b) {
-  const Matrix3 B = b.transpose().lazyProduct(b);
-  return B.trace() * Matrix3::Identity() - B;
+template <class T>
+Matrix3T<T> inertia(const Eigen::Matrix<T, Eigen::Dynamic, 3>& b) {
+  const Matrix3T<T> B = b.transpose().lazyProduct(b);
+  Matrix3T<T> J = -B;
+  J.diagonal().array() += B.trace();
+  return J;
 }
 
 /// Interface nodes first, the others after them in their own order.
@@ -98,22 +107,24 @@ ModalBody::ModalBody(ModeSet modes, const std::vector<int>& interface_node_ids) 
     shapes_.middleRows(axis * rows.rows(), rows.rows()) = rows.middleCols(3 + axis * m, m);
 }
 
-ModalBodyState ModalBody::make_state() const {
+template <class T>
+ModalBodyStateT<T> ModalBody::make_state() const {
   const int m = mode_count(), k = interface_count();
-  ModalBodyState state;
-  state.z = state.zdot = state.h_bias = VectorX::Zero(m);
-  state.S = Matrix3X::Zero(3, m);
-  state.interface_b = state.interface_delta_dot = Matrix3X::Zero(3, k);
-  state.delta = state.b = state.delta_dot = state.bias = Points::Zero(s_.rows(), 3);
-  const std::vector<double> rest(m, 0.0);
-  set_position(rest, state);
-  set_velocity(Vector3::Zero(), rest, state);
+  ModalBodyStateT<T> state;
+  state.z = state.zdot = state.h_bias = VectorXT<T>::Zero(m);
+  state.S = Matrix3XT<T>::Zero(3, m);
+  state.interface_b = state.interface_delta_dot = Matrix3XT<T>::Zero(3, k);
+  state.delta = state.b = state.delta_dot = state.bias = PointsT<T>::Zero(s_.rows(), 3);
+  const VectorXT<T> rest = VectorXT<T>::Zero(m);
+  set_position<T>(rest.data(), state);
+  set_velocity<T>(Vector3T<T>::Zero(), rest.data(), state);
   return state;
 }
 
-void ModalBody::set_position(std::span<const double> z, ModalBodyState& state) const {
+template <class T>
+void ModalBody::set_position(const T* z, ModalBodyStateT<T>& state) const {
   const Eigen::Index p = s_.rows(), k = interface_count();
-  state.z = ConstVectorMap(z.data(), mode_count());
+  state.z = Eigen::Map<const VectorXT<T>>(z, mode_count());
   // delta_i = Psi_i z,  b_i = s_i + delta_i
   stacked(state.delta).noalias() = shapes_ * state.z;
   state.b = s_ + state.delta;
@@ -130,17 +141,18 @@ void ModalBody::set_position(std::span<const double> z, ModalBodyState& state) c
   state.S.row(2).noalias() -= dy.transpose() * X;
 }
 
-void ModalBody::set_velocity(const Vector3& w_B, std::span<const double> zdot, ModalBodyState& state) const {
+template <class T>
+void ModalBody::set_velocity(const Vector3T<T>& w_B, const T* zdot, ModalBodyStateT<T>& state) const {
   const Eigen::Index k = interface_count();
   state.w_B = w_B;
-  state.zdot = ConstVectorMap(zdot.data(), mode_count());
+  state.zdot = Eigen::Map<const VectorXT<T>>(zdot, mode_count());
   // delta_i' = Psi_i z'
   stacked(state.delta_dot).noalias() = shapes_ * state.zdot;
   state.interface_delta_dot = (inverse_root_mass_.asDiagonal() * state.delta_dot.topRows(k)).transpose();
   // bias_i = w x (w x b_i) + 2 w x delta_i', a row for each point
-  const Matrix3 w = skew(w_B), ww = w * w;
+  const Matrix3T<T> w = skew(w_B), ww = w * w;
   state.bias.noalias() = state.b.lazyProduct(ww.transpose());
-  state.bias.noalias() += state.delta_dot.lazyProduct(2 * w.transpose());
+  state.bias.noalias() += state.delta_dot.lazyProduct(2.0 * w.transpose());
   // t = sum b_i x bias_i,  h = sum Psi_i^T bias_i + 2 zeta omega z' + omega^2 z
   state.t_bias = sum_of_cross_products(state.b, state.bias);
   state.h_bias.noalias() = shapes_.transpose() * stacked(std::as_const(state.bias));
@@ -162,8 +174,11 @@ double ModalBody::mode_energy(int mode, const ModalBodyState& state) const {
   return 0.5 * (state.zdot[mode] * state.zdot[mode] + stiffness_[mode] * state.z[mode] * state.z[mode]);
 }
 
-double ModalBody::damping_power(const ModalBodyState& state) const {
-  return damping_.dot(state.zdot.cwiseAbs2());
+template <class T>
+T ModalBody::damping_power(const ModalBodyStateT<T>& state) const {
+  T power(0);
+  for (Eigen::Index j = 0; j < damping_.size(); ++j) power += damping_[j] * state.zdot[j] * state.zdot[j];
+  return power;
 }
 
 Vector3 ModalBody::angular_momentum(const ModalBodyState& state) const {
@@ -173,5 +188,14 @@ Vector3 ModalBody::angular_momentum(const ModalBodyState& state) const {
 Vector3 ModalBody::deflection(int node_id, const ModalBodyState& state) const {
   return modes_.shapes.middleRows<3>(3 * modes_.node_index(node_id)) * state.z;
 }
+
+template ModalBodyStateT<double> ModalBody::make_state<double>() const;
+template ModalBodyStateT<Dual> ModalBody::make_state<Dual>() const;
+template void ModalBody::set_position(const double*, ModalBodyStateT<double>&) const;
+template void ModalBody::set_position(const Dual*, ModalBodyStateT<Dual>&) const;
+template void ModalBody::set_velocity(const Vector3&, const double*, ModalBodyStateT<double>&) const;
+template void ModalBody::set_velocity(const Vector3T<Dual>&, const Dual*, ModalBodyStateT<Dual>&) const;
+template double ModalBody::damping_power(const ModalBodyStateT<double>&) const;
+template Dual ModalBody::damping_power(const ModalBodyStateT<Dual>&) const;
 
 }  // namespace wishbone

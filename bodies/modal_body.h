@@ -10,27 +10,29 @@ namespace wishbone {
 /// Position, velocity and what follows from them of one ModalBody. Made by ModalBody::make_state(), which
 /// sizes every array once. All components are in body axes; b_i = s_i + delta_i and delta_i' are seen from
 /// the body frame.
-struct ModalBodyState {
+template <class T>
+struct ModalBodyStateT {
   // Position stage, written by set_position().
-  VectorX z;                    ///< m, modal coordinates [m sqrt(kg)]
-  Matrix3X interface_b;         ///< 3 x k, p_BoP of each interface node [m]
-  Matrix3 J = Matrix3::Zero();  ///< inertia about Bo of the deformed body, -sum m_i b_i~ b_i~ [kg m2]
-  Matrix3X S;                   ///< 3 x m, sum m_i delta_i~ Psi_i [m sqrt(kg)]
+  VectorXT<T> z;                    ///< m, modal coordinates [m sqrt(kg)]
+  Matrix3XT<T> interface_b;         ///< 3 x k, p_BoP of each interface node [m]
+  Matrix3T<T> J = Matrix3T<T>::Zero();  ///< inertia about Bo of the deformed body, -sum m_i b_i~ b_i~ [kg m2]
+  Matrix3XT<T> S;                   ///< 3 x m, sum m_i delta_i~ Psi_i [m sqrt(kg)]
 
   // Velocity stage, written by set_velocity().
-  VectorX zdot;                      ///< m [m sqrt(kg)/s]
-  Vector3 w_B = Vector3::Zero();     ///< angular velocity of the body axes [rad/s]
-  Matrix3X interface_delta_dot;      ///< 3 x k, velocity in the body axes of each interface node [m/s]
-  Vector3 t_bias = Vector3::Zero();  ///< w x (J w) + 2 sum m_i b_i x (w x delta_i') [N m]
-  VectorX h_bias;  ///< m, sum m_i Psi_i^T (w x (w x b_i) + 2 w x delta_i') + 2 zeta omega z' + omega^2 z
+  VectorXT<T> zdot;                      ///< m [m sqrt(kg)/s]
+  Vector3T<T> w_B = Vector3T<T>::Zero();     ///< angular velocity of the body axes [rad/s]
+  Matrix3XT<T> interface_delta_dot;      ///< 3 x k, velocity in the body axes of each interface node [m/s]
+  Vector3T<T> t_bias = Vector3T<T>::Zero();  ///< w x (J w) + 2 sum m_i b_i x (w x delta_i') [N m]
+  VectorXT<T> h_bias;  ///< m, sum m_i Psi_i^T (w x (w x b_i) + 2 w x delta_i') + 2 zeta omega z' + omega^2 z
 
   // Mass-weighted points (rows) used by the sums; see ModalBody.
-  using Points = Eigen::Matrix<double, Eigen::Dynamic, 3>;
+  using Points = Eigen::Matrix<T, Eigen::Dynamic, 3>;
   Points delta;      ///< sqrt(m_i) delta_i
   Points b;          ///< sqrt(m_i) b_i
   Points delta_dot;  ///< sqrt(m_i) delta_i'
   Points bias;       ///< sqrt(m_i) (w x (w x b_i) + 2 w x delta_i')
 };
+using ModalBodyState = ModalBodyStateT<double>;
 
 /// Flexible body in modal coordinates z, with mean axes B as its frame: Bo is the mass centre.
 ///
@@ -64,13 +66,16 @@ class ModalBody {
   const Matrix3X& interface_shape(int interface) const { return interface_shapes_[interface]; }
 
   /// Arrays of the right size, at rest and undeformed.
-  ModalBodyState make_state() const;
+  template <class T = double>
+  ModalBodyStateT<T> make_state() const;
 
   /// Deflections, interface positions, J(z) and S(z). Allocates nothing.
-  void set_position(std::span<const double> z, ModalBodyState& state) const;
+  template <class T>
+  void set_position(const T* z, ModalBodyStateT<T>& state) const;
 
   /// Interface velocities, t_bias and h_bias at the position set before. Allocates nothing.
-  void set_velocity(const Vector3& w_B, std::span<const double> zdot, ModalBodyState& state) const;
+  template <class T>
+  void set_velocity(const Vector3T<T>& w_B, const T* zdot, ModalBodyStateT<T>& state) const;
 
   /// 1/2 m v^2 + 1/2 sum m_i |w x b_i + delta_i'|^2 [J], v_WBo in any axes.
   double kinetic_energy(const Vector3& v_WBo, const ModalBodyState& state) const;
@@ -79,7 +84,8 @@ class ModalBody {
   /// Energy 1/2 (z_j'^2 + omega_j^2 z_j^2) of one mode [J], without its coupling to the rotation.
   double mode_energy(int mode, const ModalBodyState& state) const;
   /// Power lost to damping, sum 2 zeta_j omega_j z_j'^2 >= 0 [W].
-  double damping_power(const ModalBodyState& state) const;
+  template <class T>
+  T damping_power(const ModalBodyStateT<T>& state) const;
   /// Angular momentum about Bo, J w + S z', body components [N m s].
   Vector3 angular_momentum(const ModalBodyState& state) const;
   /// delta_i of any node of the body, body components [m]. Throws InputError if the node is unknown.
@@ -90,7 +96,7 @@ class ModalBody {
   double mass_ = 0;
   std::vector<Matrix3X> interface_shapes_;
   VectorX inverse_root_mass_;    ///< k, 1/sqrt(m_i) of the interface nodes
-  ModalBodyState::Points s_;     ///< p x 3, sqrt(m_i) s_i: the interface nodes first, then the other points
+  ModalBodyState::Points s_;  ///< p x 3, sqrt(m_i) s_i: the interface nodes first, then the other points
   MatrixX shapes_;               ///< 3p x m, sqrt(m_i) Psi_i: all x rows, then all y rows, then all z rows
   VectorX damping_, stiffness_;  ///< m, 2 zeta omega and omega^2
 };

@@ -119,9 +119,16 @@ inline bool operator!=(const Dual& a, const Dual& b) {
   return a.value != b.value;
 }
 
+/// At the corner sqrt(0) the derivative is taken as zero.
 inline Dual sqrt(const Dual& a) {
   const double f = std::sqrt(a.value);
-  return chain(a, f, 0.5 / f);
+  return chain(a, f, f > 0 ? 0.5 / f : 0.0);
+}
+/// At the corner (0, 0) the derivative is taken as zero.
+inline Dual hypot(const Dual& a, const Dual& b) {
+  const double f = std::hypot(a.value, b.value);
+  const double r = f > 0 ? 1 / f : 0.0;
+  return chain(a, b, f, a.value * r, b.value * r);
 }
 inline Dual sin(const Dual& a) {
   return chain(a, std::sin(a.value), std::cos(a.value));
@@ -162,6 +169,16 @@ inline Dual pow(const Dual& a, double n) {
 }
 inline Dual abs(const Dual& a) {
   return a.value < 0 ? -a : a;
+}
+
+/// x, but not above or below a limit.
+template <class T>
+T at_most(const T& x, double limit) {
+  return x > limit ? T(limit) : x;
+}
+template <class T>
+T at_least(const T& x, double limit) {
+  return x < limit ? T(limit) : x;
 }
 
 /// The number without its derivatives.

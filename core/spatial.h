@@ -162,6 +162,24 @@ Eigen::Matrix<T, 4, 1> quaternion_rate(const T* q_wxyz, const Vector3T<T>& w_FM_
   return rate;
 }
 
+/// The matrix that turns an angular velocity w_FM_M into the rate of the rotation vector phi of R_FM = exp(phi~):
+///   phi' = (1 + phi~/2 + c phi~^2) w,   c = (1 - (|phi|/2) cot(|phi|/2))/|phi|^2,   |phi| < 2 pi.
+template <class T>
+Matrix3T<T> rotation_vector_rate_matrix(const Vector3T<T>& phi) {
+  using std::sqrt;
+  using std::tan;
+  const T square = phi.squaredNorm();
+  T c = 1.0 / 12 + square / 720 + square * square / 30240;  // exact to double precision below 0.01
+  if (square > 1e-4) {
+    const T half = 0.5 * sqrt(square);
+    c = (1.0 - half / tan(half)) / square;
+  }
+  const Matrix3T<T> S = skew(phi);
+  Matrix3T<T> rate = 0.5 * S + c * (S * S);
+  rate.diagonal().array() += T(1);
+  return rate;
+}
+
 /// Two unit vectors that complete `axis` (unit) to a right-handed triad (axis, first, second).
 std::pair<Vector3, Vector3> perpendiculars(const Vector3& axis);
 

@@ -36,38 +36,39 @@ void with_joint_size(int nv, F&& f) {
                        "give the body, or what hangs on it, mass and inertia about the joint's axes"});
 }
 
-void set_own_inertia(const TreeBody& body, BodyState& s) {
-  s.P.setZero();
-  s.P.topLeftCorner<3, 3>() = s.X_WB.R * body.J_B * s.X_WB.R.transpose();
-  s.P.bottomRightCorner<3, 3>().diagonal().setConstant(body.mass);
+void set_own_inertia(const TreeBody& body, const BodyMotion& s, ArticulatedBody& a) {
+  a.P.setZero();
+  a.P.topLeftCorner<3, 3>() = s.X_WB.R * body.J_B * s.X_WB.R.transpose();
+  a.P.bottomRightCorner<3, 3>().diagonal().setConstant(body.mass);
 }
 
 /// Instantaneous inertia J(z), coupling S(z) and unit modal mass; children's shares are added before they come by.
-void set_own_inertia(const FlexibleBody& flexible, BodyState& s, FlexibleState& f) {
-  s.P.setZero();
-  s.P.topLeftCorner<3, 3>() = s.X_WB.R * f.modal.J * s.X_WB.R.transpose();
-  s.P.bottomRightCorner<3, 3>().diagonal().setConstant(flexible.modal.mass());
-  f.Y.leftCols<3>().noalias() = f.modal.S.transpose() * s.X_WB.R.transpose();
+void set_own_inertia(const FlexibleBody& flexible, const BodyMotion& s, const ModalBodyState& modal,
+                     ArticulatedBody& a, CondensedModes& f) {
+  a.P.setZero();
+  a.P.topLeftCorner<3, 3>() = s.X_WB.R * modal.J * s.X_WB.R.transpose();
+  a.P.bottomRightCorner<3, 3>().diagonal().setConstant(flexible.modal.mass());
+  f.Y.leftCols<3>().noalias() = modal.S.transpose() * s.X_WB.R.transpose();
   f.Y.rightCols<3>().setZero();
   if (flexible.carries_joints) f.M_zz.setIdentity();
 }
 
 /// P = M_rr - Y^T Y with Y = L_z^-1 M_zr.
-void condense_modes(const FlexibleBody& flexible, BodyState& s, FlexibleState& f) {
+void condense_modes(const FlexibleBody& flexible, ArticulatedBody& a, CondensedModes& f) {
   if (flexible.carries_joints) {
     Eigen::LLT<Eigen::Ref<MatrixX>> factor(f.M_zz);  // in place
     f.M_zz.triangularView<Eigen::Lower>().solveInPlace(f.Y);
-    s.P.noalias() -= f.Y.transpose() * f.Y;
+    a.P.noalias() -= f.Y.transpose() * f.Y;
   } else {
     const Matrix3 SS = f.Y.leftCols<3>().transpose() * f.Y.leftCols<3>();
-    s.P.topLeftCorner<3, 3>() -= SS;
+    a.P.topLeftCorner<3, 3>() -= SS;
   }
 }
 
 /// Adds a child's inertia P+ (about the child's origin) to a flexible parent through the node that carries it:
 /// A_child = shift(A_parent) + (0, R Psi z'').
-void add_to_flexible_parent(const Matrix6& P_plus, const BodyState& child, const TreeBody& body,
-                            const FlexibleBody& parent_flexible, const Matrix3& R_WP, FlexibleState& f) {
+void add_to_flexible_parent(const Matrix6& P_plus, const BodyMotion& child, const TreeBody& body,
+                            const FlexibleBody& parent_flexible, const Matrix3& R_WP, CondensedModes& f) {
   const Matrix3X& Psi = parent_flexible.modal.interface_shape(body.parent_node);  // 3 x m, parent axes
   if (Psi.cols() == 0) return;
   Eigen::Matrix<double, 6, 3> X_P = P_plus.rightCols<3>();
@@ -79,77 +80,101 @@ void add_to_flexible_parent(const Matrix6& P_plus, const BodyState& child, const
   f.M_zz.triangularView<Eigen::Lower>() += Psi.transpose() * f.P_Psi;
 }
 
+/// `stiffening`: factors on the hinge inertia of the joint's speeds, D <- W D W with W = diag(sqrt); null for none.
 template <int nv>
-void factor_joint(const TreeBody& body, BodyState& s, Matrix6& P_plus) {
-  P_plus = s.P;
+void factor_joint(const TreeBody& body, const BodyMotion& s, const double* stiffening, ArticulatedBody& a,
+                  Matrix6& P_plus) {
+  P_plus = a.P;
   if constexpr (nv > 0) {
     const Eigen::Matrix<double, 6, nv> H = s.H.leftCols<nv>();
-    const Eigen::Matrix<double, 6, nv> PH = s.P * H;
-    const Eigen::Matrix<double, nv, nv> D = H.transpose() * PH;
+    const Eigen::Matrix<double, 6, nv> PH = a.P * H;
+    Eigen::Matrix<double, nv, nv> D = H.transpose() * PH;
+    if (stiffening) {
+      const Eigen::Matrix<double, nv, 1> w =
+          Eigen::Map<const Eigen::Matrix<double, nv, 1>>(stiffening).cwiseSqrt();
+      D = w.asDiagonal() * D * w.asDiagonal();
+    }
     if constexpr (nv == 1) {
       if (!(D(0, 0) > 0)) fail_singular(body, D(0, 0));
-      s.L(0, 0) = std::sqrt(D(0, 0));
-      s.G.col(0) = PH / s.L(0, 0);
+      a.L(0, 0) = std::sqrt(D(0, 0));
+      a.G.col(0) = PH / a.L(0, 0);
     } else {
       const Eigen::LLT<Eigen::Matrix<double, nv, nv>> llt(D);
       if (llt.info() != Eigen::Success) fail_singular(body, D.diagonal().minCoeff());
       const Eigen::Matrix<double, nv, nv> L = llt.matrixL();
-      s.L.template topLeftCorner<nv, nv>() = L;
+      a.L.template topLeftCorner<nv, nv>() = L;
       // G L^T = P H
-      s.G.template leftCols<nv>() =
+      a.G.template leftCols<nv>() =
           L.template triangularView<Eigen::Lower>().solve(PH.transpose()).transpose();
     }
-    P_plus.noalias() -= s.G.template leftCols<nv>() * s.G.template leftCols<nv>().transpose();
+    P_plus.noalias() -= a.G.template leftCols<nv>() * a.G.template leftCols<nv>().transpose();
   }
 }
 
-/// Z+ = Z + P c + G e with e = -L^-1 H^T (Z + P c).
+/// Z+ = Z + P c + G e with e = L^-1 (tau - H^T (Z + P c)). On entry e holds the hinge forces tau.
 template <int nv>
-void pass_bias(BodyState& s, bool with_velocity_products, Vector6& Z_plus) {
-  Z_plus = s.Z;
-  if (with_velocity_products) Z_plus.noalias() += s.P * s.c;
+void pass_bias(const BodyMotion& s, const ArticulatedBody& a, bool with_velocity_products, double* e,
+               Vector6& Z_plus) {
+  Z_plus = a.Z;
+  if (with_velocity_products) Z_plus.noalias() += a.P * s.c;
   if constexpr (nv > 0) {
-    Eigen::Matrix<double, nv, 1> e = -s.H.template leftCols<nv>().transpose() * Z_plus;
+    Eigen::Map<Eigen::Matrix<double, nv, 1>> e_joint(e);
+    e_joint.noalias() -= s.H.template leftCols<nv>().transpose() * Z_plus;
     if constexpr (nv == 1)
-      e[0] /= s.L(0, 0);
+      e[0] /= a.L(0, 0);
     else
-      s.L.template topLeftCorner<nv, nv>().template triangularView<Eigen::Lower>().solveInPlace(e);
-    s.e.template head<nv>() = e;
-    Z_plus.noalias() += s.G.template leftCols<nv>() * e;
+      a.L.template topLeftCorner<nv, nv>().template triangularView<Eigen::Lower>().solveInPlace(e_joint);
+    Z_plus.noalias() += a.G.template leftCols<nv>() * e_joint;
   }
 }
 
 /// v' = L^-T (e - G^T A_in),  A = A_in + H v' + c, with A_in the acceleration that the parent hands on.
 template <int nv>
-void accelerate(BodyState& s, bool with_velocity_products, const Vector6& A_in, double* v_rate) {
+void accelerate(BodyMotion& s, const ArticulatedBody& a, bool with_velocity_products, const Vector6& A_in,
+                const double* e, double* v_rate) {
   s.A = A_in;
   if (with_velocity_products) s.A += s.c;
   if constexpr (nv > 0) {
-    Eigen::Matrix<double, nv, 1> vd =
-        s.e.template head<nv>() - s.G.template leftCols<nv>().transpose() * A_in;
+    using Speeds = Eigen::Matrix<double, nv, 1>;
+    Speeds vd = Eigen::Map<const Speeds>(e) - a.G.template leftCols<nv>().transpose() * A_in;
     if constexpr (nv == 1)
-      vd[0] /= s.L(0, 0);
+      vd[0] /= a.L(0, 0);
     else
-      s.L.template topLeftCorner<nv, nv>().template triangularView<Eigen::Lower>().transpose().solveInPlace(
+      a.L.template topLeftCorner<nv, nv>().template triangularView<Eigen::Lower>().transpose().solveInPlace(
           vd);
-    Eigen::Map<Eigen::Matrix<double, nv, 1>>{v_rate} = vd;
+    Eigen::Map<Speeds>{v_rate} = vd;
     s.A.noalias() += s.H.template leftCols<nv>() * vd;
   }
 }
 
-void set_own_bias(const TreeBody& body, bool with_velocity_products, BodyState& s, Workspace& ws) {
-  s.Z = -s.F_applied;
+auto modal_part(const FlexibleBody& flexible, VectorX& v) {
+  return v.segment(flexible.z_rate_start, flexible.modal.mode_count());
+}
+
+/// Bias Z of one body and generalised forces e on its modes before anything is passed on.
+void set_own_bias(const System& system, int i, Workspace& ws) {
+  const TreeBody& body = system.bodies[i];
+  const BodyMotion& s = ws.bodies[i];
+  Vector6& Z = ws.articulated[i].Z;
+  Z = -s.F_applied;
   if (body.flexible >= 0) {
-    FlexibleState& f = ws.flexible[body.flexible];
-    f.bias = -f.load;
-    if (with_velocity_products) {
-      s.Z.head<3>() += s.X_WB.R * f.modal.t_bias;
-      f.bias += f.modal.h_bias;
-    }
-  } else if (with_velocity_products) {
+    const FlexibleMotionT<double>& f = ws.flexible[body.flexible];
+    Z.head<3>() += s.X_WB.R * f.modal.t_bias;
+    modal_part(system.flexible[body.flexible], ws.e) = f.load - f.modal.h_bias;
+  } else {
     // w x J w
     const Vector3 w_B = s.X_WB.R.transpose() * angular(s.V);
-    s.Z.head<3>() += s.X_WB.R * w_B.cross(body.J_B * w_B);
+    Z.head<3>() += s.X_WB.R * w_B.cross(body.J_B * w_B);
+  }
+}
+
+void set_biases(const System& system, Terms terms, Workspace& ws) {
+  if (terms == Terms::hinge_forces) {
+    ws.e = ws.hinge_force;
+    for (ArticulatedBody& a : ws.articulated) a.Z.setZero();
+  } else {
+    ws.e.setZero();
+    for (int i = 0; i < static_cast<int>(system.bodies.size()); ++i) set_own_bias(system, i, ws);
   }
 }
 
@@ -160,95 +185,106 @@ void factor_inertia(const System& system, Workspace& ws) {
   const int n = static_cast<int>(system.bodies.size());
   for (int i = 0; i < n; ++i) {
     const TreeBody& body = system.bodies[i];
-    if (body.flexible >= 0)
-      set_own_inertia(system.flexible[body.flexible], ws.bodies[i], ws.flexible[body.flexible]);
+    const int k = body.flexible;
+    if (k >= 0)
+      set_own_inertia(system.flexible[k], ws.bodies[i], ws.flexible[k].modal, ws.articulated[i], ws.condensed[k]);
     else
-      set_own_inertia(body, ws.bodies[i]);
+      set_own_inertia(body, ws.bodies[i], ws.articulated[i]);
   }
+  const double* stiffening = ws.stiffening.size() > 0 ? ws.stiffening.data() : nullptr;
   for (int i = n - 1; i >= 0; --i) {
     const TreeBody& body = system.bodies[i];
-    BodyState& s = ws.bodies[i];
-    if (body.flexible >= 0) condense_modes(system.flexible[body.flexible], s, ws.flexible[body.flexible]);
+    const BodyMotion& s = ws.bodies[i];
+    ArticulatedBody& a = ws.articulated[i];
+    if (body.flexible >= 0) condense_modes(system.flexible[body.flexible], a, ws.condensed[body.flexible]);
     Matrix6 P_plus;
-    with_joint_size(body.nv, [&](auto size) { factor_joint<size()>(body, s, P_plus); });
+    with_joint_size(body.nv, [&](auto size) {
+      factor_joint<size()>(body, s, stiffening ? stiffening + body.v_start : nullptr, a, P_plus);
+    });
     if (body.parent < 0) continue;
-    BodyState& parent = ws.bodies[body.parent];
-    parent.P += shift_inertia(P_plus, s.p_PB);
+    ws.articulated[body.parent].P += shift_inertia(P_plus, s.p_PB);
     if (body.parent_node >= 0) {
       const int k = system.bodies[body.parent].flexible;
-      add_to_flexible_parent(P_plus, s, body, system.flexible[k], parent.X_WB.R, ws.flexible[k]);
+      add_to_flexible_parent(P_plus, s, body, system.flexible[k], ws.bodies[body.parent].X_WB.R,
+                             ws.condensed[k]);
     }
   }
 }
 
-void solve_accelerations(const System& system, Terms terms, Workspace& ws, VectorX& v_rate) {
+void calc_bias(const System& system, Terms terms, Workspace& ws) {
   ++ws.work.solves;
-  const bool all = terms == Terms::all;
-  const int n = static_cast<int>(system.bodies.size());
-  for (int i = 0; i < n; ++i) set_own_bias(system.bodies[i], all, ws.bodies[i], ws);
-
-  for (int i = n - 1; i >= 0; --i) {
+  set_biases(system, terms, ws);
+  for (int i = static_cast<int>(system.bodies.size()) - 1; i >= 0; --i) {
     const TreeBody& body = system.bodies[i];
-    BodyState& s = ws.bodies[i];
+    const BodyMotion& s = ws.bodies[i];
+    ArticulatedBody& a = ws.articulated[i];
     if (body.flexible >= 0) {
-      FlexibleState& f = ws.flexible[body.flexible];
+      // e_z = L_z^-1 (Q - h - what hangs on the nodes)
+      const CondensedModes& f = ws.condensed[body.flexible];
+      auto e_z = modal_part(system.flexible[body.flexible], ws.e);
       if (system.flexible[body.flexible].carries_joints)
-        f.M_zz.triangularView<Eigen::Lower>().solveInPlace(f.bias);
-      s.Z.noalias() -= f.Y.transpose() * f.bias;
+        f.M_zz.triangularView<Eigen::Lower>().solveInPlace(e_z);
+      a.Z.noalias() += f.Y.transpose() * e_z;
     }
     Vector6 Z_plus;
-    with_joint_size(body.nv, [&](auto size) { pass_bias<size()>(s, all, Z_plus); });
+    with_joint_size(body.nv, [&](auto size) {
+      pass_bias<size()>(s, a, terms == Terms::all, ws.e.data() + body.v_start, Z_plus);
+    });
     if (body.parent < 0) continue;
-    BodyState& parent = ws.bodies[body.parent];
-    parent.Z += shift_wrench(Z_plus, s.p_PB);
+    ws.articulated[body.parent].Z += shift_wrench(Z_plus, s.p_PB);
     if (body.parent_node >= 0) {
-      const int k = system.bodies[body.parent].flexible;
-      const Vector3 f_P = parent.X_WB.R.transpose() * linear(Z_plus);
-      ws.flexible[k].bias.noalias() +=
-          system.flexible[k].modal.interface_shape(body.parent_node).transpose() * f_P;
+      const FlexibleBody& parent = system.flexible[system.bodies[body.parent].flexible];
+      const Vector3 f_P = ws.bodies[body.parent].X_WB.R.transpose() * linear(Z_plus);
+      modal_part(parent, ws.e).noalias() -=
+          parent.modal.interface_shape(body.parent_node).transpose() * f_P;
     }
   }
+}
 
-  for (int i = 0; i < n; ++i) {
+void calc_accelerations(const System& system, Terms terms, Workspace& ws, VectorX& v_rate) {
+  for (std::size_t i = 0; i < system.bodies.size(); ++i) {
     const TreeBody& body = system.bodies[i];
-    BodyState& s = ws.bodies[i];
+    BodyMotion& s = ws.bodies[i];
     Vector6 A_in = Vector6::Zero();
     if (body.parent >= 0) {
-      const BodyState& parent = ws.bodies[body.parent];
+      const BodyMotion& parent = ws.bodies[body.parent];
       A_in = shift_velocity(parent.A, s.p_PB);
       if (body.parent_node >= 0) {
         const int k = system.bodies[body.parent].flexible;
         const Vector3 a_P = system.flexible[k].modal.interface_shape(body.parent_node) * ws.flexible[k].z_dd;
-        linear(A_in) += parent.X_WB.R * a_P;
+        A_in.tail<3>() += parent.X_WB.R * a_P;
       }
     }
-    with_joint_size(body.nv,
-                    [&](auto size) { accelerate<size()>(s, all, A_in, v_rate.data() + body.v_start); });
+    with_joint_size(body.nv, [&](auto size) {
+      accelerate<size()>(s, ws.articulated[i], terms == Terms::all, A_in, ws.e.data() + body.v_start,
+                         v_rate.data() + body.v_start);
+    });
     if (body.flexible >= 0) {
-      // z'' = -L_z^-T (L_z^-1 bias + Y A)
+      // z'' = L_z^-T (e_z - Y A)
       const FlexibleBody& flexible = system.flexible[body.flexible];
-      FlexibleState& f = ws.flexible[body.flexible];
-      f.z_dd = -f.bias;
-      f.z_dd.noalias() -= f.Y * s.A;
-      if (flexible.carries_joints) f.M_zz.triangularView<Eigen::Lower>().transpose().solveInPlace(f.z_dd);
-      v_rate.segment(flexible.z_rate_start, f.z_dd.size()) = f.z_dd;
+      const CondensedModes& f = ws.condensed[body.flexible];
+      VectorX& z_dd = ws.flexible[body.flexible].z_dd;
+      z_dd = modal_part(flexible, ws.e);
+      z_dd.noalias() -= f.Y * s.A;
+      if (flexible.carries_joints) f.M_zz.triangularView<Eigen::Lower>().transpose().solveInPlace(z_dd);
+      modal_part(flexible, v_rate) = z_dd;
     }
   }
 }
 
-void pass_through_joint(const TreeBody& body, const BodyState& s, Eigen::Ref<Matrix6X> z,
-                        Eigen::Ref<MatrixX> U) {
+void pass_through_joint(const TreeBody& body, const BodyMotion& s, const ArticulatedBody& a,
+                        Eigen::Ref<Matrix6X> z, Eigen::Ref<MatrixX> U) {
   with_joint_size(body.nv, [&](auto size) {
     constexpr int nv = size();
     if constexpr (nv > 0) {
       for (Eigen::Index j = 0; j < z.cols(); ++j) {
         Eigen::Matrix<double, nv, 1> u = s.H.template leftCols<nv>().transpose() * z.col(j);
         if constexpr (nv == 1)
-          u[0] /= s.L(0, 0);
+          u[0] /= a.L(0, 0);
         else
-          s.L.template topLeftCorner<nv, nv>().template triangularView<Eigen::Lower>().solveInPlace(u);
+          a.L.template topLeftCorner<nv, nv>().template triangularView<Eigen::Lower>().solveInPlace(u);
         U.col(j).template segment<nv>(0) = u;
-        z.col(j).noalias() -= s.G.template leftCols<nv>() * u;
+        z.col(j).noalias() -= a.G.template leftCols<nv>() * u;
       }
     }
   });

@@ -18,20 +18,24 @@ namespace wishbone {
 /// P, L, G of all bodies, from the tips inward. Needs update_positions.
 void factor_inertia(const System& system, Workspace& ws);
 
-/// What enters solve_accelerations.
+/// What enters an acceleration.
 enum class Terms {
-  all,         ///< applied loads, velocity products, elastic and gyroscopic terms: v' of the motion
-  loads_only,  ///< applied loads alone: M^-1 of them
+  all,          ///< applied loads, velocity products, elastic and gyroscopic terms: v' of the motion
+  hinge_forces  ///< generalised forces alone: M^-1 Workspace::hinge_force
 };
 
-/// v' = M^-1 (loads - bias) and the accelerations A of all bodies, from the loads in BodyState::F_applied and
-/// FlexibleState::load. Needs factor_inertia (and update_velocities for Terms::all). Leaves in BodyState::Z the bias
-/// that, with P A + Z, gives the force through the inboard joint.
-void solve_accelerations(const System& system, Terms terms, Workspace& ws, VectorX& v_rate);
+/// The inward half of v' = M^-1 tau. With the factor M^-1 = F^T F [Rodriguez, Jain & Kreutz-Delgado 1991] it leaves e = F tau
+/// in Workspace::e: what is left of the loads minus biases in every hinge, L^-1 (tau - H^T (Z + P c)), and in the modes.
+/// Needs factor_inertia (and update_state for Terms::all).
+void calc_bias(const System& system, Terms terms, Workspace& ws);
+
+/// The outward half: v' = F^T e and the accelerations A of all bodies. Since a closure's U is F D^T, forces D^T lambda are
+/// added by e += U lambda, without a second inward sweep.
+void calc_accelerations(const System& system, Terms terms, Workspace& ws, VectorX& v_rate);
 
 /// Passes the wrenches z (6 x n, on body i, about its origin) through the joint of body i toward its parent, and writes
 /// the rows of the factor U = L^-1 H^T z that belong to the joint.
-void pass_through_joint(const TreeBody& body, const BodyState& s, Eigen::Ref<Matrix6X> z,
-                        Eigen::Ref<MatrixX> U);
+void pass_through_joint(const TreeBody& body, const BodyMotion& s, const ArticulatedBody& a,
+                        Eigen::Ref<Matrix6X> z, Eigen::Ref<MatrixX> U);
 
 }  // namespace wishbone

@@ -1,5 +1,7 @@
 #include "solver/assembly.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -9,7 +11,8 @@
 #include "core/error.h"
 #include "solver/articulated_body.h"
 #include "solver/closure_dynamics.h"
-#include "solver/forward_dynamics.h"
+#include "solver/closure_rank.h"
+#include "solver/closures.h"
 #include "solver/kinematics.h"
 #include "solver/loads.h"
 
@@ -20,44 +23,51 @@ constexpr double kAssemblyTolerance = 1e-13;      // [m, rad]
 constexpr double kContradictionTolerance = 1e-8;  // residual of a redundant row that still counts as closed
 constexpr int kMaxAssemblySteps = 200;
 constexpr double kMaxDamping = 1e12;
+constexpr double kFastConvergence = 0.1;  // of residuals, below which a factor serves again
 
 void update_closed_kinematics(const System& system, const State& state, Workspace& ws) {
-  update_positions(system, state.t, state.q, ws);
-  update_velocities(system, state.t, state.v, ws);
-  update_markers(system, ws);
-  update_closures(system, ws);
+  ++ws.work.position;
+  ++ws.work.velocity;
+  update_positions<double>(system, state.t, state.q, ws);
+  update_velocities<double>(system, state.t, state.q, state.v, ws);
+  update_markers<double>(system, ws);
+  update_closures<double>(system, state.t, ws);
 }
 
-double largest_kept(const VectorX& r, const Workspace& ws) {
+double largest_kept(const VectorX& r, bool factored, const Workspace& ws) {
+  const ClosureFactor& f = ws.closure;
   double largest = 0;
-  for (const int row : ws.kept) largest = std::max(largest, std::abs(r[row]));
+  for (std::size_t i = 0; i < f.kept.size(); ++i)
+    if (!factored || takes_part(f, static_cast<int>(i)))
+      largest = std::max(largest, std::abs(r[f.kept[i]]));
   return largest;
 }
 
-/// displacement = M^-1 D^T lambda. Needs factor_inertia.
-void calc_displacement(const System& system, Workspace& ws) {
+/// displacement = M^-1 D^T lambda, lambda the multipliers of the kept rows. Needs the factors.
+void calc_correction(const System& system, const VectorX& lambda, Workspace& ws) {
   ++ws.work.projections;
-  clear_loads(ws);
-  add_closure_loads(system, ws.lambda, ws);
-  solve_accelerations(system, Terms::loads_only, ws, ws.displacement);
+  ws.e.noalias() = ws.closure.U * lambda;
+  calc_accelerations(system, Terms::hinge_forces, ws, ws.displacement);
 }
 
-/// displacement = -M^-1 D^T (D M^-1 D^T)^-1 r for the kept rows.
-void calc_projection(const System& system, const VectorX& r, Workspace& ws) {
+void factor(const System& system, Workspace& ws) {
   factor_inertia(system, ws);
-  factor_closures(system, ws);
+  factor_closures(system, kProjectionRankTolerance, ws);
+}
+
+/// displacement = -M^-1 D^T (D M^-1 D^T)^-1 r for the kept rows, with the factors at hand.
+void calc_projection(const System& system, const VectorX& r, Workspace& ws) {
   solve_multipliers(r, ws);
-  calc_displacement(system, ws);
+  calc_correction(system, ws.closure.solution, ws);
 }
 
 /// displacement = -M^-1 D^T (S + damping s 1)^-1 Phi with S = D M^-1 D^T of all rows and s the mean of its diagonal.
 void calc_damped_projection(const System& system, double damping, Workspace& ws) {
   factor_inertia(system, ws);
   calc_closure_factor(system, ws);
-  MatrixX S = ws.U.transpose() * ws.U;
+  MatrixX S = ws.closure.U.transpose() * ws.closure.U;
   S.diagonal().array() += damping * S.diagonal().mean();
-  ws.lambda = -S.ldlt().solve(ws.Phi);
-  calc_displacement(system, ws);
+  calc_correction(system, -S.ldlt().solve(ws.Phi), ws);
 }
 
 /// Levenberg-Marquardt on all rows at once, redundant ones included, with damping proportional to the residual: still
@@ -93,54 +103,147 @@ double rounding_residual(const Workspace& ws) {
   return 8 * std::numeric_limits<double>::epsilon() * farthest;
 }
 
-[[noreturn]] void fail_open(const System& system, const Workspace& ws, const std::string& why) {
+/// The same for Phi'.
+double rounding_rate(const Workspace& ws) {
+  double fastest = 0;
+  for (const MarkerState& marker : ws.markers)
+    fastest = std::max({fastest, marker.v_WM.cwiseAbs().maxCoeff(), marker.w_WM.cwiseAbs().maxCoeff()});
+  return 32 * std::numeric_limits<double>::epsilon() * fastest;
+}
+
+bool project_positions(const System& system, double tolerance, bool& factored, State& state, Workspace& ws) {
+  double last = std::numeric_limits<double>::infinity();
+  for (int iteration = 0; iteration <= kMaxProjections; ++iteration) {
+    update_closed_kinematics(system, state, ws);
+    const double residual = largest_kept(ws.Phi, factored, ws);
+    if (!std::isfinite(residual)) return false;
+    if (residual <= std::max(tolerance, rounding_residual(ws))) return true;
+    if (!factored || residual > kFastConvergence * last) factor(system, ws);
+    factored = true;
+    last = residual;
+    calc_projection(system, ws.Phi, ws);
+    retract(system, ws.displacement, state.q);
+  }
+  return false;
+}
+
+void project_velocities(const System& system, bool& factored, State& state, Workspace& ws) {
+  double last = std::numeric_limits<double>::infinity();
+  for (int iteration = 0; iteration <= kMaxProjections; ++iteration) {
+    if (iteration > 0) update_closed_kinematics(system, state, ws);
+    const double residual = largest_kept(ws.Phi_rate, factored, ws);
+    if (residual <= rounding_rate(ws) || !(residual < last)) return;
+    if (!factored || residual > kFastConvergence * last) factor(system, ws);
+    factored = true;
+    last = residual;
+    calc_projection(system, ws.Phi_rate, ws);
+    state.v += ws.displacement;
+  }
+}
+
+/// Moves along the closed poses to the one nearest to q0 in the metric of kinetic energy: the displacement from q0 is made
+/// orthogonal to the motions that the closures leave.
+void approach(const System& system, const VectorX& q0, State& state, Workspace& ws) {
+  constexpr int kMaxSteps = 30;
+  constexpr double kNear = 1e-10;
+  State probe = state;
+  double last = std::numeric_limits<double>::infinity();
+  for (int step = 0; step < kMaxSteps; ++step) {
+    // what the closures leave of the displacement taken as speeds, D d = 0; driven rows at rest
+    probe.q = state.q;
+    probe.v.setZero();
+    update_closed_kinematics(system, probe, ws);
+    const VectorX drift = ws.Phi_rate;
+    calc_displacement(system, q0, state.q, probe.v);
+    const VectorX d = probe.v;
+    update_closed_kinematics(system, probe, ws);
+    factor(system, ws);
+    calc_projection(system, ws.Phi_rate - drift, ws);
+    const VectorX tangential = d + ws.displacement;
+    const double size = tangential.cwiseAbs().maxCoeff();
+    if (!(size > kNear) || !(size < last)) return;
+    last = size;
+    probe.q = state.q;
+    retract(system, -tangential, probe.q);
+    bool factored = false;
+    if (!project_positions(system, kProjectionTolerance, factored, probe, ws)) return;
+    state.q = probe.q;
+  }
+}
+
+std::vector<ClosureGap> closure_gaps(const System& system, const Workspace& ws) {
+  std::vector<ClosureGap> gaps;
+  for (const Closure& closure : system.closures) {
+    ClosureGap gap{closure.name};
+    for (int i = 0; i < closure.rows; ++i) {
+      double& largest = row_is_angle(closure.joint, i) ? gap.angle : gap.length;
+      largest = std::max(largest, std::abs(ws.Phi[closure.row_start + i]));
+    }
+    gaps.push_back(gap);
+  }
+  return gaps;
+}
+
+[[noreturn]] void fail_open(const System& system, const Workspace& ws) {
+  std::vector<ClosureGap> gaps = closure_gaps(system, ws);
+  const auto size = [](const ClosureGap& g) { return std::max(g.length, g.angle); };
+  std::sort(gaps.begin(), gaps.end(),
+            [&](const ClosureGap& a, const ClosureGap& b) { return size(a) > size(b); });
+  constexpr std::size_t kNamed = 4;
+  std::string open;
+  for (std::size_t i = 0; i < std::min(gaps.size(), kNamed) && size(gaps[i]) > kContradictionTolerance; ++i) {
+    open += fmt::format("{}'{}' by", i > 0 ? "; " : "", gaps[i].name);
+    if (gaps[i].length > kContradictionTolerance) open += fmt::format(" {:.6g} m", gaps[i].length);
+    if (gaps[i].angle > kContradictionTolerance) open += fmt::format(" {:.6g} rad", gaps[i].angle);
+  }
   Eigen::Index worst = 0;
   ws.Phi.cwiseAbs().maxCoeff(&worst);
-  throw InputError({"cut joint '" + system.row_name(static_cast<int>(worst)) + "'", why,
-                    "open by " + std::to_string(ws.Phi[worst]) + " m or rad",
+  throw InputError({"cut joint '" + system.row_name(static_cast<int>(worst)) + "'",
+                    "no pose near the given one satisfies all closures", "open: " + open,
                     "correct the positions of the joint's two sides, or the initial joint coordinates"});
 }
 
 }  // namespace
 
-int project_positions(const System& system, double tolerance, State& state, Workspace& ws) {
-  for (int iteration = 0; iteration <= kMaxProjections; ++iteration) {
-    update_closed_kinematics(system, state, ws);
-    const double residual = largest_kept(ws.Phi, ws);
-    if (!std::isfinite(residual)) return -1;
-    if (residual <= std::max(tolerance, rounding_residual(ws))) return iteration;
-    calc_projection(system, ws.Phi, ws);
-    retract(system, ws.displacement, state.q);
-  }
-  return -1;
-}
-
-void project_velocities(const System& system, State& state, Workspace& ws) {
-  update_closed_kinematics(system, state, ws);
-  calc_projection(system, ws.Phi_rate, ws);
-  state.v += ws.displacement;
+bool project(const System& system, double tolerance, State& state, Workspace& ws) {
+  bool factored = false;
+  if (!project_positions(system, tolerance, factored, state, ws)) return false;
+  project_velocities(system, factored, state, ws);
+  return true;
 }
 
 AssemblyReport assemble(const System& system, State& state, Workspace& ws) {
   AssemblyReport report;
   normalize_quaternions(system, state.q);
+  update_closed_kinematics(system, state, ws);
+  remember_angles(system, state, ws);
   if (system.n_rows == 0) return report;
 
+  const VectorX q0 = state.q;
+  ws.stiffening = system.assembly_weights;
   std::vector<int> all(system.n_rows);
   std::iota(all.begin(), all.end(), 0);
   keep_rows(all, system, ws);
+  report.gaps = closure_gaps(system, ws);
   report.position_iterations = close_loops(system, state, ws);
-  if (!(ws.Phi.cwiseAbs().maxCoeff() <= kContradictionTolerance))
-    fail_open(system, ws, "no pose near the given one satisfies all closures");
+  if (!(ws.Phi.cwiseAbs().maxCoeff() <= kContradictionTolerance)) fail_open(system, ws);
 
   factor_inertia(system, ws);
   const std::vector<int> independent = find_independent_rows(system, ws);
   std::set_difference(all.begin(), all.end(), independent.begin(), independent.end(),
                       std::back_inserter(report.redundant_rows));
   keep_rows(independent, system, ws);
+  if (report.position_iterations > 1) approach(system, q0, state, ws);
 
-  project_velocities(system, state, ws);
+  bool factored = false;
   update_closed_kinematics(system, state, ws);
+  project_velocities(system, factored, state, ws);
+  ws.stiffening.resize(0);
+  update_closed_kinematics(system, state, ws);
+  remember_angles(system, state, ws);
+  VectorX d = VectorX::Zero(system.nv);
+  calc_displacement(system, q0, state.q, d);
+  report.displacement = d.size() > 0 ? d.cwiseAbs().maxCoeff() : 0.0;
   report.position_residual = ws.Phi.cwiseAbs().maxCoeff();
   report.velocity_residual = ws.Phi_rate.cwiseAbs().maxCoeff();
   return report;

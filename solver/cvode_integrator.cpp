@@ -6,6 +6,7 @@
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
 #include "solver/assembly.h"
+#include "solver/equations.h"
 #include "solver/events.h"
 #include "solver/first_order.h"
 #include "solver/integrator_failure.h"
@@ -21,10 +22,13 @@ class CvodeIntegrator final : public Integrator {
   void restart(const State& state, const Work& work) override;
   Step step(double t_stop) override;
   void interpolate(double t, State& state, Work& work) override;
+  bool outlived() override { return equations_->outlived(); }
   Statistics statistics() const override;
 
  private:
   static int rate(realtype t, N_Vector y, N_Vector y_rate, void* self);
+  static int jacobian(realtype t, N_Vector y, N_Vector y_rate, SUNMatrix J, void* self, N_Vector, N_Vector,
+                      N_Vector);
   static int project(realtype t, N_Vector y, N_Vector correction, realtype eps, N_Vector err, void* self);
   static int events(realtype t, N_Vector y, realtype* g, void* self);
 
@@ -41,7 +45,7 @@ class CvodeIntegrator final : public Integrator {
   };
 
   IntegratorOptions options_;
-  FirstOrderSystem equations_;
+  std::unique_ptr<FirstOrderSystem> equations_;
   int event_count_;
   sundials::Context context_;
   sundials::Vector y_, tolerances_, scratch_;
@@ -55,23 +59,32 @@ class CvodeIntegrator final : public Integrator {
 
 CvodeIntegrator::CvodeIntegrator(const System& system, const IntegratorOptions& options, Workspace& ws)
     : options_(options),
-      equations_(system, ws),
+      equations_(make_equations(system, options, ws)),
       event_count_(wishbone::event_count(system)),
-      y_(sundials::make_vector(equations_.size(), context_)),
-      tolerances_(sundials::make_vector(equations_.size(), context_)),
-      scratch_(sundials::make_vector(equations_.size(), context_)) {
-  equations_.set_tolerances(options.atol, sundials::map(tolerances_));
+      y_(sundials::make_vector(equations_->size(), context_)),
+      tolerances_(sundials::make_vector(equations_->size(), context_)),
+      scratch_(sundials::make_vector(equations_->size(), context_)) {
+  equations_->set_tolerances(options.atol, sundials::map(tolerances_));
 }
 
 int CvodeIntegrator::rate(realtype t, N_Vector y, N_Vector y_rate, void* self) {
-  FirstOrderSystem& equations = static_cast<CvodeIntegrator*>(self)->equations_;
+  FirstOrderSystem& equations = *static_cast<CvodeIntegrator*>(self)->equations_;
   return equations.guard([&] { equations.calc_rate(t, sundials::map(y), sundials::map(y_rate)); });
+}
+
+int CvodeIntegrator::jacobian(realtype t, N_Vector y, N_Vector /*y_rate*/, SUNMatrix J, void* self, N_Vector,
+                              N_Vector, N_Vector) {
+  FirstOrderSystem& equations = *static_cast<CvodeIntegrator*>(self)->equations_;
+  return equations.guard([&] {
+    const Eigen::Index n = equations.size();
+    equations.calc_jacobian(t, sundials::map(y), Eigen::Map<MatrixX>(SUNDenseMatrix_Data(J), n, n));
+  });
 }
 
 int CvodeIntegrator::project(realtype t, N_Vector y, N_Vector correction, realtype /*eps*/, N_Vector /*err*/,
                              void* self) {
   auto* integrator = static_cast<CvodeIntegrator*>(self);
-  FirstOrderSystem& equations = integrator->equations_;
+  FirstOrderSystem& equations = *integrator->equations_;
   bool closed = true;
   const int flag = equations.guard([&] {
     auto c = sundials::map(correction);
@@ -83,7 +96,7 @@ int CvodeIntegrator::project(realtype t, N_Vector y, N_Vector correction, realty
 }
 
 int CvodeIntegrator::events(realtype t, N_Vector y, realtype* g, void* self) {
-  FirstOrderSystem& equations = static_cast<CvodeIntegrator*>(self)->equations_;
+  FirstOrderSystem& equations = *static_cast<CvodeIntegrator*>(self)->equations_;
   return equations.guard([&] { equations.calc_events(t, sundials::map(y), g); });
 }
 
@@ -91,11 +104,11 @@ void CvodeIntegrator::create(const State& state, const Work& work) {
   const bool adams = options_.method == Method::adams;
   cvode_.reset(CVodeCreate(adams ? CV_ADAMS : CV_BDF, context_));
   void* cvode = cvode_.get();
-  equations_.pack(state, work, sundials::map(y_));
+  equations_->pack(state, work, sundials::map(y_));
   CVodeSetErrHandlerFn(
       cvode, [](int, const char*, const char*, char*, void*) {}, nullptr);  // flags tell the story
   CVodeInit(cvode, rate, state.t, y_.get());
-  CVodeSVtolerances(cvode, equations_.tolerance_scale() * options_.rtol, tolerances_.get());
+  CVodeSVtolerances(cvode, equations_->tolerance_scale() * options_.rtol, tolerances_.get());
   CVodeSetUserData(cvode, this);
   CVodeSetMaxNumSteps(cvode, -1);  // counted by the caller
   if (options_.max_step > 0) CVodeSetMaxStep(cvode, options_.max_step);
@@ -103,9 +116,10 @@ void CvodeIntegrator::create(const State& state, const Work& work) {
     nonlinear_.reset(SUNNonlinSol_FixedPoint(y_.get(), 0, context_));
     CVodeSetNonlinearSolver(cvode, nonlinear_.get());
   } else {
-    matrix_.reset(SUNDenseMatrix(equations_.size(), equations_.size(), context_));
+    matrix_.reset(SUNDenseMatrix(equations_->size(), equations_->size(), context_));
     linear_.reset(SUNLinSol_Dense(y_.get(), matrix_.get(), context_));
     CVodeSetLinearSolver(cvode, linear_.get(), matrix_.get());
+    CVodeSetJacFn(cvode, jacobian);
     if (options_.form == Form::index1) {
       CVodeSetProjFn(cvode, project);
       CVodeSetProjErrEst(cvode, SUNFALSE);
@@ -122,7 +136,7 @@ void CvodeIntegrator::restart(const State& state, const Work& work) {
   t_ = state.t;
   if (!cvode_) return create(state, work);
   before_ = counts();
-  equations_.pack(state, work, sundials::map(y_));
+  equations_->pack(state, work, sundials::map(y_));
   CVodeReInit(cvode_.get(), state.t, y_.get());
 }
 
@@ -131,17 +145,17 @@ Integrator::Step CvodeIntegrator::step(double t_stop) {
   CVodeSetStopTime(cvode, t_stop);
   const int flag = CVode(cvode, t_stop, y_.get(), &t_, CV_ONE_STEP);
   if (flag < 0) {
-    throw_integrator_failure(equations_, "CVODE", sundials::flag_name(CVodeGetReturnFlagName(flag)), t_,
+    throw_integrator_failure(*equations_, "CVODE", sundials::flag_name(CVodeGetReturnFlagName(flag)), t_,
                              blame());
   }
-  equations_.take_failure();  // a trial state that was retried with a smaller step
+  equations_->take_failure();  // a trial state that was retried with a smaller step
   if (flag != CV_ROOT_RETURN) return {t_, {}};
   return {t_, sundials::events_found(cvode, CVodeGetRootInfo, event_count_)};
 }
 
 void CvodeIntegrator::interpolate(double t, State& state, Work& work) {
   CVodeGetDky(cvode_.get(), t, 0, scratch_.get());
-  equations_.unpack(t, sundials::map(scratch_), state, work);
+  equations_->unpack(t, sundials::map(scratch_), state, work);
 }
 
 VectorX CvodeIntegrator::blame() const {

@@ -1,7 +1,10 @@
 #include "solver/energy.h"
 
+#include <algorithm>
 #include <type_traits>
 
+#include "core/dual.h"
+#include "solver/closures.h"
 #include "solver/forward_dynamics.h"
 #include "solver/loads.h"
 
@@ -11,7 +14,7 @@ Energy calc_energy(const System& system, const State& state, const Workspace& ws
   Energy energy;
   for (std::size_t i = 0; i < system.bodies.size(); ++i) {
     const TreeBody& body = system.bodies[i];
-    const BodyState& s = ws.bodies[i];
+    const BodyMotion& s = ws.bodies[i];
     if (body.flexible >= 0) {
       const ModalBody& modal = system.flexible[body.flexible].modal;
       const ModalBodyState& m = ws.flexible[body.flexible].modal;
@@ -33,18 +36,28 @@ Energy calc_energy(const System& system, const State& state, const Workspace& ws
   return energy;
 }
 
-Work calc_work_rate(const System& system, double t, const Workspace& ws) {
-  Work rate;
+bool has_prescribed_motion(const System& system) {
+  return std::any_of(system.bodies.begin(), system.bodies.end(), [](const TreeBody& body) {
+    return std::holds_alternative<PrescribedJoint>(body.joint);
+  });
+}
+
+template <class T>
+WorkT<T> calc_work_rate(const System& system, double t, const VectorXT<T>& lambda, const Evaluation<T>& ev) {
+  WorkT<T> rate;
   for_each_force(system, [&](const auto& element, int index) {
     if constexpr (std::is_same_v<std::decay_t<decltype(element)>, AppliedLoad>)
-      rate.input += ws.element_powers[index];
+      rate.input += ev.element_powers[index];
     else
-      rate.loss -= ws.element_powers[index];
+      rate.loss -= ev.element_powers[index];
   });
   for (std::size_t k = 0; k < system.flexible.size(); ++k)
-    rate.loss += system.flexible[k].modal.damping_power(ws.flexible[k].modal);
-  rate.input += calc_motion_power(system, t, ws);
+    rate.loss += system.flexible[k].modal.damping_power(ev.flexible[k].modal);
+  rate.input += calc_motion_power(system, t, ev) + calc_driven_power(system, t, lambda);
   return rate;
 }
+
+template WorkT<double> calc_work_rate(const System&, double, const VectorX&, const Evaluation<double>&);
+template WorkT<Dual> calc_work_rate(const System&, double, const VectorXT<Dual>&, const Evaluation<Dual>&);
 
 }  // namespace wishbone

@@ -13,15 +13,21 @@ struct Energy {
 };
 
 /// Energy that has crossed the boundary of the mechanism since the start [J].
-struct Work {
-  double loss = 0;   ///< taken by force elements (stored part included) and by structural damping
-  double input = 0;  ///< brought by applied loads and prescribed motions
+template <class T>
+struct WorkT {
+  T loss = T(0);   ///< taken by force elements (stored part included) and by structural damping
+  T input = T(0);  ///< brought by applied loads and prescribed motions
 };
+using Work = WorkT<double>;
 
 /// Needs update_state.
 Energy calc_energy(const System& system, const State& state, const Workspace& ws);
 
-/// Rates of Work, after calc_forward_dynamics and calc_joint_forces (or calc_motion_residual).
-Work calc_work_rate(const System& system, double t, const Workspace& ws);
+/// Whether the power of prescribed motions needs the joint forces.
+bool has_prescribed_motion(const System& system);
+
+/// Rates of Work; with prescribed motions after calc_joint_forces or calc_motion_residual.
+template <class T>
+WorkT<T> calc_work_rate(const System& system, double t, const VectorXT<T>& lambda, const Evaluation<T>& ev);
 
 }  // namespace wishbone

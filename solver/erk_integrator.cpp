@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "solver/assembly.h"
+#include "solver/equations.h"
 #include "solver/events.h"
 #include "solver/first_order.h"
 #include "solver/integrator_failure.h"
@@ -30,6 +31,7 @@ class ErkIntegrator final : public Integrator {
   void restart(const State& state, const Work& work) override;
   Step step(double t_stop) override;
   void interpolate(double t, State& state, Work& work) override;
+  bool outlived() override { return equations_->outlived(); }
   Statistics statistics() const override;
 
  private:
@@ -51,7 +53,7 @@ class ErkIntegrator final : public Integrator {
   };
 
   IntegratorOptions options_;
-  FirstOrderSystem equations_;
+  std::unique_ptr<FirstOrderSystem> equations_;
   int event_count_;
   sundials::Context context_;
   sundials::Vector y_, tolerances_, scratch_;
@@ -64,21 +66,21 @@ class ErkIntegrator final : public Integrator {
 
 ErkIntegrator::ErkIntegrator(const System& system, const IntegratorOptions& options, Workspace& ws)
     : options_(options),
-      equations_(system, ws),
+      equations_(make_equations(system, options, ws)),
       event_count_(wishbone::event_count(system)),
-      y_(sundials::make_vector(equations_.size(), context_)),
-      tolerances_(sundials::make_vector(equations_.size(), context_)),
-      scratch_(sundials::make_vector(equations_.size(), context_)) {
-  equations_.set_tolerances(options.atol, sundials::map(tolerances_));
+      y_(sundials::make_vector(equations_->size(), context_)),
+      tolerances_(sundials::make_vector(equations_->size(), context_)),
+      scratch_(sundials::make_vector(equations_->size(), context_)) {
+  equations_->set_tolerances(options.atol, sundials::map(tolerances_));
 }
 
 int ErkIntegrator::rate(realtype t, N_Vector y, N_Vector y_rate, void* self) {
-  FirstOrderSystem& equations = static_cast<ErkIntegrator*>(self)->equations_;
+  FirstOrderSystem& equations = *static_cast<ErkIntegrator*>(self)->equations_;
   return equations.guard([&] { equations.calc_rate(t, sundials::map(y), sundials::map(y_rate)); });
 }
 
 int ErkIntegrator::project(realtype t, N_Vector y, void* self) {
-  FirstOrderSystem& equations = static_cast<ErkIntegrator*>(self)->equations_;
+  FirstOrderSystem& equations = *static_cast<ErkIntegrator*>(self)->equations_;
   bool closed = true;
   const int flag =
       equations.guard([&] { closed = equations.project(t, kProjectionTolerance, sundials::map(y)); });
@@ -86,17 +88,17 @@ int ErkIntegrator::project(realtype t, N_Vector y, void* self) {
 }
 
 int ErkIntegrator::events(realtype t, N_Vector y, realtype* g, void* self) {
-  FirstOrderSystem& equations = static_cast<ErkIntegrator*>(self)->equations_;
+  FirstOrderSystem& equations = *static_cast<ErkIntegrator*>(self)->equations_;
   return equations.guard([&] { equations.calc_events(t, sundials::map(y), g); });
 }
 
 void ErkIntegrator::create(const State& state, const Work& work) {
-  equations_.pack(state, work, sundials::map(y_));
+  equations_->pack(state, work, sundials::map(y_));
   arkode_.reset(ERKStepCreate(rate, state.t, y_.get(), context_));
   void* arkode = arkode_.get();
   ERKStepSetErrHandlerFn(
       arkode, [](int, const char*, const char*, char*, void*) {}, nullptr);
-  ERKStepSVtolerances(arkode, equations_.tolerance_scale() * options_.rtol, tolerances_.get());
+  ERKStepSVtolerances(arkode, equations_->tolerance_scale() * options_.rtol, tolerances_.get());
   ERKStepSetUserData(arkode, this);
   ERKStepSetMaxNumSteps(arkode, -1);  // counted by the caller
   ERKStepSetTableNum(arkode, ARKODE_DORMAND_PRINCE_7_4_5);
@@ -113,7 +115,7 @@ void ErkIntegrator::restart(const State& state, const Work& work) {
   t_ = state.t;
   if (!arkode_) return create(state, work);
   before_ = counts();
-  equations_.pack(state, work, sundials::map(y_));
+  equations_->pack(state, work, sundials::map(y_));
   ERKStepReInit(arkode_.get(), rate, state.t, y_.get());
   ERKStepSetInitStep(arkode_.get(), 0.0);  // its own estimate
 }
@@ -138,17 +140,17 @@ Integrator::Step ErkIntegrator::step(double t_stop) {
   }
   ERKStepGetLastStep(arkode, &last_step_);
   if (flag < 0)
-    throw_integrator_failure(equations_, "ARKODE", sundials::flag_name(ERKStepGetReturnFlagName(flag)), t_,
+    throw_integrator_failure(*equations_, "ARKODE", sundials::flag_name(ERKStepGetReturnFlagName(flag)), t_,
                              blame());
-  equations_.take_failure();  // a trial state that was retried with a smaller step
+  equations_->take_failure();  // a trial state that was retried with a smaller step
   if (flag != ARK_ROOT_RETURN) return {t_, {}};
   return {t_, sundials::events_found(arkode, ERKStepGetRootInfo, event_count_)};
 }
 
 void ErkIntegrator::interpolate(double t, State& state, Work& work) {
-  if (t == t_) return equations_.unpack(t, sundials::map(y_), state, work);
+  if (t == t_) return equations_->unpack(t, sundials::map(y_), state, work);
   ERKStepGetDky(arkode_.get(), t, 0, scratch_.get());
-  equations_.unpack(t, sundials::map(scratch_), state, work);
+  equations_->unpack(t, sundials::map(scratch_), state, work);
 }
 
 VectorX ErkIntegrator::blame() const {

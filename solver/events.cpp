@@ -31,7 +31,7 @@ int event_count(const System& system) {
 
 void initialize_segments(const System& system, Workspace& ws) {
   for_each_segmented_tire(system, [&](const Tire& tire, int index) {
-    ws.segments[index] = tire.road().segment_at(ws.markers[tire.wheel()].p_WM.x());
+    ws.memory.segments[index] = tire.road().segment_at(ws.markers[tire.wheel()].p_WM.x());
   });
 }
 
@@ -39,16 +39,16 @@ void calc_events(const System& system, const Workspace& ws, std::span<double> g)
   std::size_t i = 0;
   for_each_segmented_tire(system, [&](const Tire& tire, int index) {
     const double x = ws.markers[tire.wheel()].p_WM.x();
-    g[i++] = distance(x - tire.road().lower_edge(ws.segments[index]));
-    g[i++] = distance(tire.road().upper_edge(ws.segments[index]) - x);
+    g[i++] = distance(x - tire.road().lower_edge(ws.memory.segments[index]));
+    g[i++] = distance(tire.road().upper_edge(ws.memory.segments[index]) - x);
   });
 }
 
 void handle_event(const System& system, int event, Workspace& ws) {
   int i = 0;
   for_each_segmented_tire(system, [&](const Tire&, int index) {
-    if (i++ == event) --ws.segments[index];
-    if (i++ == event) ++ws.segments[index];
+    if (i++ == event) --ws.memory.segments[index];
+    if (i++ == event) ++ws.memory.segments[index];
   });
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "solver/assembly.h"
+#include "solver/closure_rank.h"
 #include "solver/events.h"
 #include "solver/forward_dynamics.h"
 #include "solver/kinematics.h"
@@ -22,10 +23,10 @@ State sized_state(const System& system) {
 }  // namespace
 
 void require_finite(const System& system, double t, const Eigen::Ref<const VectorX>& rates,
-                    const Workspace& ws) {
+                    const Evaluation<double>& ev) {
   if (rates.allFinite()) return;
   for_each_force(system, [&](const auto& element, int index) {
-    if (std::isfinite(ws.element_powers[index])) return;
+    if (std::isfinite(ev.element_powers[index])) return;
     throw NumericsError({fmt::format("{} at t = {:.9g} s", element.name(), t),
                          "the force is not a finite number", "",
                          "look for extreme values in its parameters and in the motion of its markers"});
@@ -38,14 +39,18 @@ void require_finite(const System& system, double t, const Eigen::Ref<const Vecto
 }
 
 FirstOrderSystem::FirstOrderSystem(const System& system, Workspace& ws)
+    : FirstOrderSystem(system, ws, system.nq + system.nv + system.nx + 2) {}
+
+FirstOrderSystem::FirstOrderSystem(const System& system, Workspace& ws, Eigen::Index size)
     : system_(system),
       ws_(ws),
-      size_(system.nq + system.nv + system.nx + 2),
-      weight_(system.total_mass() * kStandardGravity),
+      size_(size),
       state_(sized_state(system)),
+      weight_(system.total_mass() * kStandardGravity),
+      needs_joint_forces_(has_prescribed_motion(system)),
       q_rate_(VectorX::Zero(system.nq)) {}
 
-void FirstOrderSystem::pack(const State& state, const Work& work, Eigen::Ref<VectorX> y) const {
+void FirstOrderSystem::pack(const State& state, const Work& work, Eigen::Ref<VectorX> y) {
   y.head(system_.nq) = state.q;
   y.segment(system_.nq, system_.nv) = state.v;
   y.segment(system_.nq + system_.nv, system_.nx) = state.x;
@@ -53,7 +58,7 @@ void FirstOrderSystem::pack(const State& state, const Work& work, Eigen::Ref<Vec
   y[size_ - 1] = work.input;
 }
 
-void FirstOrderSystem::unpack(double t, const Eigen::Ref<const VectorX>& y, State& state, Work& work) const {
+void FirstOrderSystem::unpack(double t, const Eigen::Ref<const VectorX>& y, State& state, Work& work) {
   state.t = t;
   state.q = y.head(system_.nq);
   state.v = y.segment(system_.nq, system_.nv);
@@ -61,35 +66,63 @@ void FirstOrderSystem::unpack(double t, const Eigen::Ref<const VectorX>& y, Stat
   work = {y[size_ - 2], y[size_ - 1]};
 }
 
+Work FirstOrderSystem::calc_motion(const State& state) {
+  calc_forward_dynamics(system_, state, ws_);
+  require_finite(system_, state.t, ws_.v_rate, ws_);
+  if (needs_joint_forces_) calc_joint_forces(system_, ws_);
+  return calc_work_rate<double>(system_, state.t, ws_.lambda, ws_);
+}
+
+Tangents& FirstOrderSystem::tangents() {
+  if (!tangents_) tangents_ = std::make_unique<Tangents>(system_);
+  return *tangents_;
+}
+
 void FirstOrderSystem::calc_rate(double t, const Eigen::Ref<const VectorX>& y, Eigen::Ref<VectorX> y_rate) {
   unpack(t, y, state_, work_);
-  calc_forward_dynamics(system_, state_, ws_);
-  require_finite(system_, t, ws_.v_rate, ws_);
-  calc_joint_forces(system_, ws_);
-  calc_q_rate(system_, state_.q, state_.v, q_rate_);
-  y_rate.head(system_.nq) = q_rate_;
+  const Work rate = calc_motion(state_);
+  calc_q_rate<double>(system_, state_.q, state_.v, y_rate.data());
   y_rate.segment(system_.nq, system_.nv) = ws_.v_rate;
   y_rate.segment(system_.nq + system_.nv, system_.nx) = ws_.x_rate;
-  const Work rate = calc_work_rate(system_, t, ws_);
-  y_rate[size_ - 2] = rate.loss;
-  y_rate[size_ - 1] = rate.input;
+  y_rate.tail<2>() << rate.loss, rate.input;
+}
+
+void FirstOrderSystem::calc_jacobian(double t, const Eigen::Ref<const VectorX>& y, Eigen::Ref<MatrixX> J) {
+  const Eigen::Index nq = system_.nq, nv = system_.nv, nx = system_.nx, n = nq + nv + nx;
+  unpack(t, y, state_, work_);
+  calc_motion(state_);
+  if (!directions_) {
+    directions_ = std::make_unique<Directions>(system_, n);
+    directions_->q.leftCols(nq).setIdentity();
+    directions_->v.middleCols(nq, nv).setIdentity();
+    directions_->x.rightCols(nx).setIdentity();
+    derivatives_ = std::make_unique<MotionDerivatives>(system_, n);
+  }
+  tangents().calc(state_, *directions_, ws_, *derivatives_);
+  J.setZero();  // nothing depends on the energies
+  J.topLeftCorner(nq, n) = derivatives_->q_rate;
+  J.block(nq, 0, nv, n) = derivatives_->v_rate;
+  J.block(nq + nv, 0, nx, n) = derivatives_->x_rate;
+  J.block(n, 0, 2, n) = derivatives_->work_rate;
 }
 
 bool FirstOrderSystem::project(double t, double tolerance, Eigen::Ref<VectorX> y) {
   unpack(t, y, state_, work_);
   normalize_quaternions(system_, state_.q);
-  if (!ws_.kept.empty()) {
-    if (project_positions(system_, tolerance, state_, ws_) < 0) return false;
-    project_velocities(system_, state_, ws_);
-  }
-  pack(state_, work_, y);
+  if (!ws_.closure.kept.empty() && !wishbone::project(system_, tolerance, state_, ws_)) return false;
+  y.head(system_.nq) = state_.q;
+  y.segment(system_.nq, system_.nv) = state_.v;
   return y.allFinite();  // next to a singular position the corrections may overflow
+}
+
+bool FirstOrderSystem::outlived() {
+  return revise_rows(system_, state_, ws_) == RowRevision::grown;
 }
 
 void FirstOrderSystem::calc_events(double t, const Eigen::Ref<const VectorX>& y, double* g) {
   unpack(t, y, state_, work_);
-  update_positions(system_, t, state_.q, ws_);
-  update_markers(system_, ws_);
+  update_positions<double>(system_, t, state_.q, ws_);
+  update_markers<double>(system_, ws_);
   wishbone::calc_events(system_, ws_, {g, static_cast<std::size_t>(event_count(system_))});
 }
 

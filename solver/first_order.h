@@ -1,11 +1,13 @@
 #pragma once
 
 #include <exception>
+#include <memory>
 #include <string>
 #include <utility>
 
 #include "core/error.h"
 #include "solver/energy.h"
+#include "solver/tangents.h"
 #include "solver/workspace.h"
 
 namespace wishbone {
@@ -13,27 +15,34 @@ namespace wishbone {
 /// Checks the accelerations (or residuals) of an evaluation, one for each speed.
 /// @throws NumericsError naming the first force element that is not finite, else the first speed that is not
 void require_finite(const System& system, double t, const Eigen::Ref<const VectorX>& rates,
-                    const Workspace& ws);
+                    const Evaluation<double>& ev);
 
 /// The equations of motion as y' = f(t, y) with y = (q, v, x, work), x the states of the force elements and work the two
-/// energies that have crossed the boundary. Also the guard between C++ exceptions and a C integrator.
+/// energies that have crossed the boundary: forms `ode` and `index1`. Also the guard between C++ exceptions and a C
+/// integrator. Other choices of y derive from it.
 class FirstOrderSystem {
  public:
   FirstOrderSystem(const System& system, Workspace& ws);
+  virtual ~FirstOrderSystem() = default;
 
   Eigen::Index size() const { return size_; }
   const System& system() const { return system_; }
   Workspace& workspace() { return ws_; }
   const Workspace& workspace() const { return ws_; }
 
-  void pack(const State& state, const Work& work, Eigen::Ref<VectorX> y) const;
-  void unpack(double t, const Eigen::Ref<const VectorX>& y, State& state, Work& work) const;
+  /// y of a consistent state, from which a new integration starts.
+  virtual void pack(const State& state, const Work& work, Eigen::Ref<VectorX> y);
+  virtual void unpack(double t, const Eigen::Ref<const VectorX>& y, State& state, Work& work);
 
   /// y' = (N v, v', x', work').
-  void calc_rate(double t, const Eigen::Ref<const VectorX>& y, Eigen::Ref<VectorX> y_rate);
+  virtual void calc_rate(double t, const Eigen::Ref<const VectorX>& y, Eigen::Ref<VectorX> y_rate);
+  /// J = df/dy, exact (solver/tangents.h).
+  virtual void calc_jacobian(double t, const Eigen::Ref<const VectorX>& y, Eigen::Ref<MatrixX> J);
   /// Brings y onto the closures, positions to `tolerance`; false when that fails.
-  bool project(double t, double tolerance, Eigen::Ref<VectorX> y);
+  virtual bool project(double t, double tolerance, Eigen::Ref<VectorX> y);
   void calc_events(double t, const Eigen::Ref<const VectorX>& y, double* g);
+  /// After an accepted step: whether the choice of y no longer suits, so that the integration must start anew.
+  virtual bool outlived();
 
   /// Factor on tolerances, 1/sqrt(size). SUNDIALS holds the root mean square of the weighted errors below one; with this
   /// factor every single coordinate meets its tolerance, and coordinates at rest do not loosen it for the others.
@@ -42,7 +51,7 @@ class FirstOrderSystem {
   void set_tolerances(double atol, Eigen::Ref<VectorX> tolerances) const;
 
   /// Name of an entry of y for messages.
-  std::string name(Eigen::Index i) const;
+  virtual std::string name(Eigen::Index i) const;
 
   /// Runs a callback's body: 0 when it went well, 1 (try a smaller step) after a NumericsError or a non-finite result, -1
   /// after any other exception. The exception is kept.
@@ -62,14 +71,28 @@ class FirstOrderSystem {
   /// The exception of the last callback that failed, if any; forgets it.
   std::exception_ptr take_failure() { return std::exchange(failure_, nullptr); }
 
- private:
+ protected:
+  /// With y of another size than (q, v, x, work).
+  FirstOrderSystem(const System& system, Workspace& ws, Eigen::Index size);
+
+  /// v', x' and work' at a state, left in the workspace; checked to be finite.
+  Work calc_motion(const State& state);
+  /// The scratch of derivatives, made when they are first asked for.
+  Tangents& tangents();
+
   const System& system_;
   Workspace& ws_;
   Eigen::Index size_;
-  double weight_;  // of all bodies under standard gravity [N]
-  State state_;    // scratch of the callbacks
+  State state_;  // scratch of the callbacks
   Work work_;
+
+ private:
+  double weight_;  // of all bodies under standard gravity [N]
+  bool needs_joint_forces_;
   VectorX q_rate_;
+  std::unique_ptr<Tangents> tangents_;
+  std::unique_ptr<Directions> directions_;  // one along every entry of (q, v, x)
+  std::unique_ptr<MotionDerivatives> derivatives_;
   std::exception_ptr failure_;
 };
 

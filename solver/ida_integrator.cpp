@@ -2,15 +2,21 @@
 
 #include <ida/ida.h>
 #include <sunlinsol/sunlinsol_dense.h>
+#include <sunlinsol/sunlinsol_klu.h>
 #include <sunmatrix/sunmatrix_dense.h>
+#include <sunmatrix/sunmatrix_sparse.h>
 
+#include <algorithm>
+
+#include "solver/articulated_body.h"
 #include "solver/closure_dynamics.h"
+#include "solver/closure_rank.h"
 #include "solver/events.h"
 #include "solver/first_order.h"
 #include "solver/forward_dynamics.h"
+#include "solver/ggl_jacobian.h"
+#include "solver/ggl_residual.h"
 #include "solver/integrator_failure.h"
-#include "solver/inverse_dynamics.h"
-#include "solver/kinematics.h"
 #include "solver/sundials.h"
 
 namespace wishbone {
@@ -26,15 +32,20 @@ class IdaIntegrator final : public Integrator {
   void restart(const State& state, const Work& work) override;
   Step step(double t_stop) override;
   void interpolate(double t, State& state, Work& work) override;
+  /// Another choice of rows has other multipliers.
+  bool outlived() override;
   Statistics statistics() const override;
 
  private:
   static int residual(realtype t, N_Vector y, N_Vector y_rate, N_Vector r, void* self);
+  static int jacobian(realtype t, realtype c, N_Vector y, N_Vector y_rate, N_Vector r, SUNMatrix J, void* self,
+                      N_Vector, N_Vector, N_Vector);
   static int events(realtype t, N_Vector y, N_Vector y_rate, realtype* g, void* self);
 
-  void calc_residual(double t, const Eigen::Ref<const VectorX>& y, const Eigen::Ref<const VectorX>& y_rate,
-                     Eigen::Ref<VectorX> r);
-  void expand_multipliers(const Eigen::Ref<const VectorX>& kept, VectorX& all) const;
+  void calc_residual(double t, N_Vector y, N_Vector y_rate, N_Vector r);
+  void calc_jacobian(double t, double c, N_Vector y, N_Vector y_rate, SUNMatrix J);
+  void choose_rows();
+  void make_linear_solver();
   void create();
   VectorX blame() const;
 
@@ -49,91 +60,82 @@ class IdaIntegrator final : public Integrator {
 
   IntegratorOptions options_;
   FirstOrderSystem equations_;
-  Eigen::Index n_multipliers_;
   int event_count_;
   sundials::Context context_;
+  std::vector<int> kept_;  // rows of the multipliers among the unknowns
+  std::unique_ptr<GglResidual<double>> residual_;
+  std::unique_ptr<GglJacobian> jacobian_;
   sundials::Vector y_, y_rate_, tolerances_, scratch_;
   sundials::Matrix matrix_;
   sundials::LinearSolver linear_;
   std::unique_ptr<void, IdaDeleter> ida_;
   double t_ = 0;
   Counts before_;  // of the runs before the last restart
-
-  // scratch of the residual
-  State state_;
-  Work work_;
-  VectorX v_rate_, lambda_, gamma_, q_rate_, speed_, force_;
 };
 
 IdaIntegrator::IdaIntegrator(const System& system, const IntegratorOptions& options, Workspace& ws)
-    : options_(options),
-      equations_(system, ws),
-      n_multipliers_(static_cast<Eigen::Index>(ws.kept.size())),
-      event_count_(wishbone::event_count(system)),
-      y_(sundials::make_vector(equations_.size() + 2 * n_multipliers_, context_)),
-      y_rate_(sundials::make_vector(equations_.size() + 2 * n_multipliers_, context_)),
-      tolerances_(sundials::make_vector(equations_.size() + 2 * n_multipliers_, context_)),
-      scratch_(sundials::make_vector(equations_.size() + 2 * n_multipliers_, context_)),
-      state_{0, VectorX::Zero(system.nq), VectorX::Zero(system.nv), VectorX::Zero(system.nx)},
-      v_rate_(VectorX::Zero(system.nv)),
-      lambda_(VectorX::Zero(system.n_rows)),
-      gamma_(VectorX::Zero(system.n_rows)),
-      q_rate_(VectorX::Zero(system.nq)),
-      speed_(VectorX::Zero(system.nv)),
-      force_(VectorX::Zero(system.nv)) {
-  auto tolerances = sundials::map(tolerances_);
-  equations_.set_tolerances(options.atol, tolerances.head(equations_.size()));
-  tolerances.tail(2 * n_multipliers_).setConstant(kMultiplierTolerance * options.atol);
-}
+    : options_(options), equations_(system, ws), event_count_(wishbone::event_count(system)) {}
 
-void IdaIntegrator::expand_multipliers(const Eigen::Ref<const VectorX>& kept, VectorX& all) const {
-  const std::vector<int>& rows = equations_.workspace().kept;
-  for (std::size_t i = 0; i < rows.size(); ++i) all[rows[i]] = kept[i];
-}
-
-void IdaIntegrator::calc_residual(double t, const Eigen::Ref<const VectorX>& y,
-                                  const Eigen::Ref<const VectorX>& y_rate, Eigen::Ref<VectorX> r) {
+/// Sizes everything for the rows that are kept; their number and choice can change between restarts.
+void IdaIntegrator::choose_rows() {
   const System& system = equations_.system();
+  before_ = counts();
+  ida_.reset();
+  kept_ = equations_.workspace().closure.kept;
+  residual_ = std::make_unique<GglResidual<double>>(system, kept_);
+  jacobian_ = std::make_unique<GglJacobian>(system, kept_);
+  for (sundials::Vector* v : {&y_, &y_rate_, &tolerances_, &scratch_})
+    *v = sundials::make_vector(residual_->size(), context_);
+  auto tolerances = sundials::map(tolerances_);
+  equations_.set_tolerances(options_.atol, tolerances.head(equations_.size()));
+  tolerances.tail(2 * static_cast<Eigen::Index>(kept_.size()))
+      .setConstant(kMultiplierTolerance * options_.atol);
+}
+
+void IdaIntegrator::calc_residual(double t, N_Vector y, N_Vector y_rate, N_Vector r) {
   Workspace& ws = equations_.workspace();
-  const Eigen::Index n = equations_.size();
-  const Eigen::Index nq = system.nq, nv = system.nv, nx = system.nx, m = n_multipliers_;
-  equations_.unpack(t, y.head(n), state_, work_);
-  v_rate_ = y_rate.segment(nq, nv);
-  expand_multipliers(y_rate.segment(n, m), lambda_);
-  expand_multipliers(y_rate.segment(n + m, m), gamma_);
-
-  // M v' - f - D^T Lambda'
-  calc_motion_residual(system, state_, v_rate_, lambda_, ws, r.segment(nq, nv));
-  require_finite(system, t, r.segment(nq, nv), ws);
-  r.segment(nq + nv, nx) = y_rate.segment(nq + nv, nx) - ws.x_rate;
-  const Work rate = calc_work_rate(system, t, ws);
-  r[n - 2] = y_rate[n - 2] - rate.loss;
-  r[n - 1] = y_rate[n - 1] - rate.input;
-
-  // q' - N (v - D^T Gamma')
-  speed_ = state_.v;
-  if (m > 0) {
-    calc_closure_force(system, gamma_, ws, force_);
-    speed_ -= force_;
-  }
-  calc_q_rate(system, state_.q, speed_, q_rate_);
-  r.head(nq) = y_rate.head(nq) - q_rate_;
-
-  for (Eigen::Index i = 0; i < m; ++i) {
-    r[n + i] = ws.Phi[ws.kept[i]];
-    r[n + m + i] = ws.Phi_rate[ws.kept[i]];
-  }
+  ++ws.work.inverse_dynamics;
+  residual_->evaluation().memory = ws.memory;
+  residual_->calc(t, N_VGetArrayPointer(y), N_VGetArrayPointer(y_rate), N_VGetArrayPointer(r));
+  const System& system = equations_.system();
+  require_finite(system, t, sundials::map(r).segment(system.nq, system.nv), residual_->evaluation());
 }
 
 int IdaIntegrator::residual(realtype t, N_Vector y, N_Vector y_rate, N_Vector r, void* self) {
   auto* integrator = static_cast<IdaIntegrator*>(self);
-  return integrator->equations_.guard(
-      [&] { integrator->calc_residual(t, sundials::map(y), sundials::map(y_rate), sundials::map(r)); });
+  return integrator->equations_.guard([&] { integrator->calc_residual(t, y, y_rate, r); });
+}
+
+void IdaIntegrator::calc_jacobian(double t, double c, N_Vector y, N_Vector y_rate, SUNMatrix J) {
+  ++equations_.workspace().work.tangents;
+  double* values = jacobian_->sparse() ? SUNSparseMatrix_Data(J) : SUNDenseMatrix_Data(J);
+  jacobian_->calc(t, c, N_VGetArrayPointer(y), N_VGetArrayPointer(y_rate), equations_.workspace().memory, values);
+  if (!jacobian_->sparse()) return;
+  std::copy(jacobian_->column_starts().begin(), jacobian_->column_starts().end(),
+            SUNSparseMatrix_IndexPointers(J));
+  std::copy(jacobian_->row_indices().begin(), jacobian_->row_indices().end(), SUNSparseMatrix_IndexValues(J));
+}
+
+int IdaIntegrator::jacobian(realtype t, realtype c, N_Vector y, N_Vector y_rate, N_Vector, SUNMatrix J, void* self,
+                            N_Vector, N_Vector, N_Vector) {
+  auto* integrator = static_cast<IdaIntegrator*>(self);
+  return integrator->equations_.guard([&] { integrator->calc_jacobian(t, c, y, y_rate, J); });
 }
 
 int IdaIntegrator::events(realtype t, N_Vector y, N_Vector /*y_rate*/, realtype* g, void* self) {
   FirstOrderSystem& equations = static_cast<IdaIntegrator*>(self)->equations_;
   return equations.guard([&] { equations.calc_events(t, sundials::map(y).head(equations.size()), g); });
+}
+
+void IdaIntegrator::make_linear_solver() {
+  const sunindextype n = residual_->size();
+  if (jacobian_->sparse()) {
+    matrix_.reset(SUNSparseMatrix(n, n, jacobian_->entries(), CSC_MAT, context_));
+    linear_.reset(SUNLinSol_KLU(y_.get(), matrix_.get(), context_));
+  } else {
+    matrix_.reset(SUNDenseMatrix(n, n, context_));
+    linear_.reset(SUNLinSol_Dense(y_.get(), matrix_.get(), context_));
+  }
 }
 
 void IdaIntegrator::create() {
@@ -146,10 +148,9 @@ void IdaIntegrator::create() {
   IDASetUserData(ida, this);
   IDASetMaxNumSteps(ida, -1);  // counted by the caller
   if (options_.max_step > 0) IDASetMaxStep(ida, options_.max_step);
-  const sunindextype n = N_VGetLength(y_.get());
-  matrix_.reset(SUNDenseMatrix(n, n, context_));
-  linear_.reset(SUNLinSol_Dense(y_.get(), matrix_.get(), context_));
+  make_linear_solver();
   IDASetLinearSolver(ida, linear_.get(), matrix_.get());
+  IDASetJacFn(ida, jacobian);
   if (event_count_ > 0) {
     std::vector<int> falling(event_count_, -1);
     IDARootInit(ida, event_count_, events);
@@ -159,6 +160,7 @@ void IdaIntegrator::create() {
 
 void IdaIntegrator::restart(const State& state, const Work& work) {
   // consistent y and y': the rates and multipliers of the index-1 form, the integrals start at zero
+  if (!residual_ || kept_ != equations_.workspace().closure.kept) choose_rows();
   const Eigen::Index n = equations_.size();
   auto y = sundials::map(y_);
   auto y_rate = sundials::map(y_rate_);
@@ -166,8 +168,9 @@ void IdaIntegrator::restart(const State& state, const Work& work) {
   y_rate.setZero();
   equations_.pack(state, work, y.head(n));
   equations_.calc_rate(state.t, y.head(n), y_rate.head(n));
-  const Workspace& ws = equations_.workspace();
-  for (Eigen::Index i = 0; i < n_multipliers_; ++i) y_rate[n + i] = ws.lambda[ws.kept[i]];
+  const VectorX& lambda = equations_.workspace().lambda;
+  for (std::size_t i = 0; i < kept_.size(); ++i)
+    y_rate[n + static_cast<Eigen::Index>(i)] = lambda[kept_[i]];
   t_ = state.t;
   if (!ida_) return create();
   before_ = counts();
@@ -188,6 +191,19 @@ Integrator::Step IdaIntegrator::step(double t_stop) {
 void IdaIntegrator::interpolate(double t, State& state, Work& work) {
   IDAGetDky(ida_.get(), t, 0, scratch_.get());
   equations_.unpack(t, sundials::map(scratch_).head(equations_.size()), state, work);
+}
+
+bool IdaIntegrator::outlived() {
+  const System& system = equations_.system();
+  Workspace& ws = equations_.workspace();
+  if (static_cast<int>(kept_.size()) == system.n_rows) return false;
+  State state;
+  Work work;
+  equations_.unpack(t_, sundials::map(y_).head(equations_.size()), state, work);
+  update_state(system, state, ws);
+  factor_inertia(system, ws);
+  factor_closures(system, kDynamicsRankTolerance, ws);
+  return revise_rows(system, state, ws) != RowRevision::unchanged;
 }
 
 VectorX IdaIntegrator::blame() const {

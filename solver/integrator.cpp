@@ -15,6 +15,8 @@ const char* to_string(Form form) {
       return "ode";
     case Form::index1:
       return "index1";
+    case Form::partition:
+      return "partition";
     case Form::ggl:
       return "ggl";
   }

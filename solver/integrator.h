@@ -14,6 +14,7 @@ enum class Form {
   automatic,  ///< ode without closures, index1 with
   ode,        ///< v' from the tree alone; only without closures
   index1,  ///< v' and lambda from the closed system; positions and speeds projected onto the closures after each step
+  partition,  ///< independent coordinates alone, the dependent ones solved from the closures in every evaluation
   ggl,  ///< Gear-Gupta-Leimkuhler: closures at both levels, the multipliers entering as derivatives of their integrals
 };
 
@@ -55,6 +56,9 @@ class Integrator {
 
   /// State and work at any time within the last step.
   virtual void interpolate(double t, State& state, Work& work) = 0;
+
+  /// After an accepted step: whether the integration must be restarted, because the variables it was set up for no longer suit.
+  virtual bool outlived() = 0;
 
   virtual Statistics statistics() const = 0;
 };

@@ -1,95 +1,124 @@
 #include "solver/inverse_dynamics.h"
 
-#include "solver/forward_dynamics.h"
+#include "core/dual.h"
+#include "solver/closures.h"
+#include "solver/kinematics.h"
 #include "solver/loads.h"
 
 namespace wishbone {
 namespace {
 
 /// A_WB = shift(A_WP) + (0, R Psi z'' of the parent's node) + H v' + c.
-void accelerate_bodies(const System& system, const VectorX& v_rate, Workspace& ws) {
+template <class T>
+void accelerate_bodies(const System& system, const VectorXT<T>& v_rate, Evaluation<T>& ev) {
+  for (std::size_t k = 0; k < system.flexible.size(); ++k) {
+    const FlexibleBody& flexible = system.flexible[k];
+    ev.flexible[k].z_dd = v_rate.segment(flexible.z_rate_start, flexible.modal.mode_count());
+  }
   for (std::size_t i = 0; i < system.bodies.size(); ++i) {
     const TreeBody& body = system.bodies[i];
-    BodyState& s = ws.bodies[i];
+    BodyMotionT<T>& s = ev.bodies[i];
     s.A = s.c;
-    s.A.noalias() += s.H.leftCols(body.nv) * v_rate.segment(body.v_start, body.nv);
+    for (int j = 0; j < body.nv; ++j) s.A += s.H.col(j) * v_rate[body.v_start + j];
     if (body.parent < 0) continue;
-    const BodyState& parent = ws.bodies[body.parent];
+    const BodyMotionT<T>& parent = ev.bodies[body.parent];
     s.A += shift_velocity(parent.A, s.p_PB);
     if (body.parent_node >= 0) {
-      const FlexibleBody& flexible = system.flexible[system.bodies[body.parent].flexible];
-      const auto z_dd = v_rate.segment(flexible.z_rate_start, flexible.modal.mode_count());
-      const Vector3 a_P = flexible.modal.interface_shape(body.parent_node) * z_dd;
-      linear(s.A) += parent.X_WB.R * a_P;
+      const int k = system.bodies[body.parent].flexible;
+      const Vector3T<T> a_P = system.flexible[k].modal.interface_shape(body.parent_node) * ev.flexible[k].z_dd;
+      s.A.template tail<3>() += parent.X_WB.R * a_P;
     }
   }
 }
 
 /// Inertia force minus loads of one body, and its modal residual.
-void set_own_force(const System& system, const TreeBody& body, const VectorX& v_rate, BodyState& s,
-                   Workspace& ws, Eigen::Ref<VectorX> r) {
+template <class T>
+void set_own_force(const System& system, const TreeBody& body, BodyMotionT<T>& s, const Evaluation<T>& ev,
+                   T* r) {
   s.F_joint = -s.F_applied;
+  const Vector3T<T> alpha_B = s.X_WB.R.transpose() * angular(s.A);
   if (body.flexible < 0) {
-    const Vector3 alpha_B = s.X_WB.R.transpose() * angular(s.A);
-    const Vector3 w_B = s.X_WB.R.transpose() * angular(s.V);
-    s.F_joint.head<3>() += s.X_WB.R * (body.J_B * alpha_B + w_B.cross(body.J_B * w_B));
-    s.F_joint.tail<3>() += body.mass * linear(s.A);
+    const Vector3T<T> w_B = s.X_WB.R.transpose() * angular(s.V);
+    const Vector3T<T> Jw = body.J_B * w_B, J_alpha = body.J_B * alpha_B;
+    s.F_joint.template head<3>() += s.X_WB.R * (J_alpha + w_B.cross(Jw));
+    s.F_joint.template tail<3>() += body.mass * linear(s.A);
     return;
   }
   const FlexibleBody& flexible = system.flexible[body.flexible];
-  const FlexibleState& f = ws.flexible[body.flexible];
-  const auto z_dd = v_rate.segment(flexible.z_rate_start, flexible.modal.mode_count());
-  const Vector3 alpha_B = s.X_WB.R.transpose() * angular(s.A);
+  const FlexibleMotionT<T>& f = ev.flexible[body.flexible];
   // J alpha + S z'' + t_bias = N,   S^T alpha + z'' + h_bias = Q
-  s.F_joint.head<3>() += s.X_WB.R * (f.modal.J * alpha_B + f.modal.S * z_dd + f.modal.t_bias);
-  s.F_joint.tail<3>() += flexible.modal.mass() * linear(s.A);
-  auto r_z = r.segment(flexible.z_rate_start, z_dd.size());
-  r_z = z_dd + f.modal.h_bias - f.load;
-  r_z.noalias() += f.modal.S.transpose() * alpha_B;
+  const Vector3T<T> Sz = f.modal.S * f.z_dd;
+  s.F_joint.template head<3>() += s.X_WB.R * (f.modal.J * alpha_B + Sz + f.modal.t_bias);
+  s.F_joint.template tail<3>() += flexible.modal.mass() * linear(s.A);
+  Eigen::Map<VectorXT<T>> r_z(r + flexible.z_rate_start, f.z_dd.size());
+  r_z = f.z_dd + f.modal.h_bias - f.load;
+  r_z += f.modal.S.transpose().lazyProduct(alpha_B);
 }
 
 /// r = H^T F joint by joint, tips first, the rest handed to the parent.
-void project_onto_hinges(const System& system, Workspace& ws, Eigen::Ref<VectorX> r) {
+template <class T>
+void project_onto_hinges(const System& system, Evaluation<T>& ev, T* r) {
   for (int i = static_cast<int>(system.bodies.size()) - 1; i >= 0; --i) {
     const TreeBody& body = system.bodies[i];
-    const BodyState& s = ws.bodies[i];
-    r.segment(body.v_start, body.nv) = s.H.leftCols(body.nv).transpose() * s.F_joint;
+    const BodyMotionT<T>& s = ev.bodies[i];
+    for (int j = 0; j < body.nv; ++j) r[body.v_start + j] = s.H.col(j).dot(s.F_joint);
     if (body.parent < 0) continue;
-    BodyState& parent = ws.bodies[body.parent];
+    BodyMotionT<T>& parent = ev.bodies[body.parent];
     parent.F_joint += shift_wrench(s.F_joint, s.p_PB);
     if (body.parent_node >= 0) {
       const FlexibleBody& flexible = system.flexible[system.bodies[body.parent].flexible];
-      const Vector3 f_P = parent.X_WB.R.transpose() * linear(s.F_joint);
-      r.segment(flexible.z_rate_start, flexible.modal.mode_count()).noalias() +=
-          flexible.modal.interface_shape(body.parent_node).transpose() * f_P;
+      const Vector3T<T> f_P = parent.X_WB.R.transpose() * linear(s.F_joint);
+      Eigen::Map<VectorXT<T>>(r + flexible.z_rate_start, flexible.modal.mode_count()) +=
+          flexible.modal.interface_shape(body.parent_node).transpose().lazyProduct(f_P);
     }
   }
 }
 
 }  // namespace
 
-void calc_motion_residual(const System& system, const State& state, const VectorX& v_rate,
-                          const VectorX& lambda, Workspace& ws, Eigen::Ref<VectorX> r) {
-  ++ws.work.inverse_dynamics;
-  update_state(system, state, ws);
-  add_closure_loads(system, lambda, ws);
-  accelerate_bodies(system, v_rate, ws);
-  for (std::size_t i = 0; i < system.bodies.size(); ++i)
-    set_own_force(system, system.bodies[i], v_rate, ws.bodies[i], ws, r);
-  project_onto_hinges(system, ws, r);
+template <class T>
+void update_state(const System& system, double t, const VectorXT<T>& q, const VectorXT<T>& v,
+                  const VectorXT<T>& x, Evaluation<T>& ev) {
+  update_positions(system, t, q, ev);
+  update_velocities(system, t, q, v, ev);
+  update_markers(system, ev);
+  update_closures(system, t, ev);
+  apply_forces(system, t, x, ev);
 }
 
-void calc_closure_force(const System& system, const VectorX& mu, Workspace& ws, Eigen::Ref<VectorX> force) {
-  clear_loads(ws);
-  add_closure_loads(system, mu, ws);
+template <class T>
+void calc_motion_residual(const System& system, const VectorXT<T>& v_rate, const VectorXT<T>& lambda,
+                          Evaluation<T>& ev, T* r) {
+  add_closure_loads(system, lambda, ev);
+  accelerate_bodies(system, v_rate, ev);
+  for (std::size_t i = 0; i < system.bodies.size(); ++i)
+    set_own_force(system, system.bodies[i], ev.bodies[i], ev, r);
+  project_onto_hinges(system, ev, r);
+}
+
+template <class T>
+void calc_closure_force(const System& system, const VectorXT<T>& mu, Evaluation<T>& ev, T* force) {
+  clear_loads(ev);
+  add_closure_loads(system, mu, ev);
   for (std::size_t i = 0; i < system.bodies.size(); ++i) {
     const TreeBody& body = system.bodies[i];
-    ws.bodies[i].F_joint = ws.bodies[i].F_applied;
+    ev.bodies[i].F_joint = ev.bodies[i].F_applied;
     if (body.flexible < 0) continue;
     const FlexibleBody& flexible = system.flexible[body.flexible];
-    force.segment(flexible.z_rate_start, flexible.modal.mode_count()) = ws.flexible[body.flexible].load;
+    Eigen::Map<VectorXT<T>>(force + flexible.z_rate_start, flexible.modal.mode_count()) =
+        ev.flexible[body.flexible].load;
   }
-  project_onto_hinges(system, ws, force);
+  project_onto_hinges(system, ev, force);
 }
+
+#define WISHBONE_INSTANTIATE(T)                                                                               \
+  template void update_state(const System&, double, const VectorXT<T>&, const VectorXT<T>&,                   \
+                             const VectorXT<T>&, Evaluation<T>&);                                             \
+  template void calc_motion_residual(const System&, const VectorXT<T>&, const VectorXT<T>&, Evaluation<T>&,   \
+                                     T*);                                                                     \
+  template void calc_closure_force(const System&, const VectorXT<T>&, Evaluation<T>&, T*);
+WISHBONE_INSTANTIATE(double)
+WISHBONE_INSTANTIATE(Dual)
+#undef WISHBONE_INSTANTIATE
 
 }  // namespace wishbone

@@ -1,67 +1,95 @@
 #include "solver/loads.h"
 
+#include "core/dual.h"
+#include "solver/closures.h"
+
 namespace wishbone {
 namespace {
 
 /// Adds a wrench at a marker to its body: about Bo, and to the modes when the marker is a node's.
-void add_wrench(const System& system, MarkerIndex i, const Vector3& t, const Vector3& f, Workspace& ws) {
+template <class T>
+void add_wrench(const System& system, MarkerIndex i, const Vector3T<T>& t, const Vector3T<T>& f,
+                Evaluation<T>& ev) {
   const Marker& marker = system.markers[i];
   if (marker.body < 0) return;
-  BodyState& body = ws.bodies[marker.body];
-  const Vector3 p_BM = ws.markers[i].p_WM - body.X_WB.p;
-  body.F_applied.head<3>() += t + p_BM.cross(f);
-  body.F_applied.tail<3>() += f;
+  BodyMotionT<T>& body = ev.bodies[marker.body];
+  const Vector3T<T> p_BM = ev.markers[i].p_WM - body.X_WB.p;
+  body.F_applied.template head<3>() += t + p_BM.cross(f);
+  body.F_applied.template tail<3>() += f;
   if (marker.node >= 0) {
     // Q = sum Psi_i^T f_i, body axes
     const int k = system.bodies[marker.body].flexible;
-    const Vector3 f_B = body.X_WB.R.transpose() * f;
-    ws.flexible[k].load.noalias() += system.flexible[k].modal.interface_shape(marker.node).transpose() * f_B;
+    const Vector3T<T> f_B = body.X_WB.R.transpose() * f;
+    ev.flexible[k].load += system.flexible[k].modal.interface_shape(marker.node).transpose().lazyProduct(f_B);
   }
 }
 
 }  // namespace
 
-ForceInput force_input(double t, const VectorX& x, int x_start, int state_count, int index,
-                       const Workspace& ws) {
-  return {t, ws.markers, {x.data() + x_start, static_cast<std::size_t>(state_count)}, ws.segments[index]};
+template <class T>
+void clear_loads(Evaluation<T>& ev) {
+  for (BodyMotionT<T>& s : ev.bodies) s.F_applied.setZero();
+  for (FlexibleMotionT<T>& f : ev.flexible) f.load.setZero();
 }
 
-void clear_loads(Workspace& ws) {
-  for (BodyState& s : ws.bodies) s.F_applied.setZero();
-  for (FlexibleState& f : ws.flexible) f.load.setZero();
-}
-
-void apply_forces(const System& system, double t, const VectorX& x, Workspace& ws) {
-  ++ws.work.forces;
-  clear_loads(ws);
-  for (Wrench& w : ws.wrenches) w = Wrench{};
+template <class T>
+void apply_forces(const System& system, double t, const VectorXT<T>& x, Evaluation<T>& ev) {
+  clear_loads(ev);
+  for (WrenchT<T>& w : ev.wrenches) w = WrenchT<T>{};
 
   int x_start = 0;
   for_each_force(system, [&](const auto& element, int index) {
     const int n = element.state_count();
-    ForceOutput out{ws.wrenches, {ws.x_rate.data() + x_start, static_cast<std::size_t>(n)}, 0.0};
-    element.apply(force_input(t, x, x_start, n, index, ws), out);
-    ws.element_powers[index] = out.power;
+    ForceOutputT<T> out{ev.wrenches, {ev.x_rate.data() + x_start, static_cast<std::size_t>(n)}, T(0)};
+    element.apply(force_input(t, x, x_start, n, index, ev), out);
+    ev.element_powers[index] = out.power;
     x_start += n;
   });
 
   for (std::size_t i = 0; i < system.bodies.size(); ++i) {
     const TreeBody& body = system.bodies[i];
     const double mass = body.flexible < 0 ? body.mass : system.flexible[body.flexible].modal.mass();
-    ws.bodies[i].F_applied.tail<3>() = mass * system.gravity;
+    ev.bodies[i].F_applied.template tail<3>() = (mass * system.gravity).template cast<T>();
   }
+  if (system.n_forces == 0) return;
   for (std::size_t i = 0; i < system.markers.size(); ++i)
-    add_wrench(system, static_cast<MarkerIndex>(i), ws.wrenches[i].t, ws.wrenches[i].f, ws);
+    add_wrench(system, static_cast<MarkerIndex>(i), ev.wrenches[i].t, ev.wrenches[i].f, ev);
 }
 
-void add_closure_loads(const System& system, const VectorX& lambda, Workspace& ws) {
-  for (const Closure& closure : system.closures) {
-    const auto l = lambda.segment(closure.row_start, closure.rows);
-    const Vector6 F_A = ws.W_A.middleCols(closure.row_start, closure.rows) * l;
-    const Vector6 F_B = ws.W_B.middleCols(closure.row_start, closure.rows) * l;
-    add_wrench(system, closure.A, angular(F_A), linear(F_A), ws);
-    add_wrench(system, closure.B, angular(F_B), linear(F_B), ws);
-  }
+template <class T>
+void add_closure_loads(const System& system, const VectorXT<T>& lambda, Evaluation<T>& ev) {
+  for (const Closure& closure : system.closures)
+    for (std::size_t p = 0; p < closure.markers.size(); ++p) {
+      const Vector6T<T> F = closure_wrench(closure, static_cast<int>(p), lambda, ev);
+      add_wrench<T>(system, closure.markers[p], angular(F), linear(F), ev);
+    }
 }
+
+bool counts_turns(const System& system) {
+  bool any = system.n_gauges > 0;
+  for_each_force(system, [&](const auto& element, int) {
+    if constexpr (requires(ForceInput input) { element.angle(input); }) any = true;
+  });
+  return any;
+}
+
+void remember_angles(const System& system, const State& state, Evaluation<double>& ev) {
+  int x_start = 0;
+  for_each_force(system, [&](const auto& element, int index) {
+    if constexpr (requires(ForceInput input) { element.angle(input); })
+      ev.memory.force_angles[index] =
+          element.angle(force_input(state.t, state.x, x_start, element.state_count(), index, ev));
+    x_start += element.state_count();
+  });
+  remember_closure_angles(system, ev);
+}
+
+#define WISHBONE_INSTANTIATE(T)                                                               \
+  template void clear_loads(Evaluation<T>&);                                                  \
+  template void apply_forces(const System&, double, const VectorXT<T>&, Evaluation<T>&);      \
+  template void add_closure_loads(const System&, const VectorXT<T>&, Evaluation<T>&);
+WISHBONE_INSTANTIATE(double)
+WISHBONE_INSTANTIATE(Dual)
+#undef WISHBONE_INSTANTIATE
 
 }  // namespace wishbone

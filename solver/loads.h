@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/workspace.h"
+#include "solver/evaluation.h"
 
 namespace wishbone {
 
@@ -19,17 +19,33 @@ void for_each_force(const System& system, F&& f) {
 }
 
 /// What force element `index`, with its states starting at x_start, is given.
-ForceInput force_input(double t, const VectorX& x, int x_start, int state_count, int index,
-                       const Workspace& ws);
+template <class T>
+ForceInputT<T> force_input(double t, const VectorXT<T>& x, int x_start, int state_count, int index,
+                           const Evaluation<T>& ev) {
+  return {t,
+          ev.markers,
+          {x.data() + x_start, static_cast<std::size_t>(state_count)},
+          ev.memory.segments[index],
+          ev.memory.force_angles[index]};
+}
 
 /// Evaluates all force elements at the markers' states, sums gravity and their wrenches into the bodies' F_applied and the
 /// flexible bodies' modal loads; sets x_rate and element_powers. Needs update_markers.
-void apply_forces(const System& system, double t, const VectorX& x, Workspace& ws);
+template <class T>
+void apply_forces(const System& system, double t, const VectorXT<T>& x, Evaluation<T>& ev);
 
 /// Sets all applied loads to zero.
-void clear_loads(Workspace& ws);
+template <class T>
+void clear_loads(Evaluation<T>& ev);
 
-/// Adds W_A lambda and W_B lambda of every closure to the loads.
-void add_closure_loads(const System& system, const VectorX& lambda, Workspace& ws);
+/// Adds W lambda of every closure to the loads.
+template <class T>
+void add_closure_loads(const System& system, const VectorXT<T>& lambda, Evaluation<T>& ev);
+
+/// Whether any gauge has turns to count.
+bool counts_turns(const System& system);
+
+/// Counts the turns of every gauge from the markers' states: called when a step is accepted.
+void remember_angles(const System& system, const State& state, Evaluation<double>& ev);
 
 }  // namespace wishbone

@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "solver/forward_dynamics.h"
+#include "solver/closures.h"
 #include "solver/loads.h"
+#include "solver/reactions.h"
 
 namespace wishbone {
 namespace {
@@ -18,12 +20,6 @@ void put(const Vector3& a, double* out) {
 /// World components of the joint's own frame F.
 Matrix3 inboard_rotation(const TreeBody& body, const Workspace& ws) {
   return body.parent < 0 ? body.X_PF.R : Matrix3(ws.bodies[body.parent].X_WB.R * body.X_PF.R);
-}
-
-/// Force and moment of the inboard joint on the parent (the first-named body), at the outboard joint point Mo.
-Vector6 reaction_on_parent(const TreeBody& body, const BodyState& s) {
-  const Vector3 p_BM = -(s.X_WB.R * (body.X_MB.R.transpose() * body.X_MB.p));
-  return -shift_wrench(s.F_joint, -p_BM);
 }
 
 struct JointMotion {
@@ -160,11 +156,11 @@ void Observer::add_tree_joints(const System& system) {
     }
     add(path + "/force", {3}, "N", kWorld, "reaction on the first-named body, at the joint",
         [i](const Sample& s, double* out) {
-          put(linear(reaction_on_parent(s.system.bodies[i], s.ws.bodies[i])), out);
+          put(linear(tree_joint_reaction(s.system, s.ws, static_cast<int>(i))), out);
         });
     add(path + "/moment", {3}, "N m", kWorld, "reaction moment on the first-named body, about the joint",
         [i](const Sample& s, double* out) {
-          put(angular(reaction_on_parent(s.system.bodies[i], s.ws.bodies[i])), out);
+          put(angular(tree_joint_reaction(s.system, s.ws, static_cast<int>(i))), out);
         });
     if (!prescribed) continue;
     add(path + "/driving_force", {}, scalar_units(body).coordinate[0] == 'm' ? "N" : "N m", "",
@@ -173,7 +169,7 @@ void Observer::add_tree_joints(const System& system) {
           const TreeBody& b = s.system.bodies[i];
           const auto& joint = std::get<PrescribedJoint>(b.joint);
           const Vector3 axis = inboard_rotation(b, s.ws) * joint.axis_F;
-          const Vector6 F = -reaction_on_parent(b, s.ws.bodies[i]);
+          const Vector6 F = -tree_joint_reaction(s.system, s.ws, static_cast<int>(i));
           *out = axis.dot(joint.kind == PrescribedJoint::Kind::revolute ? Vector3(angular(F))
                                                                         : Vector3(linear(F)));
         });
@@ -201,9 +197,7 @@ void Observer::add_closures(const System& system) {
   for (std::size_t c = 0; c < system.closures.size(); ++c) {
     const std::string path = "/joints/" + system.closures[c].name;
     const auto reaction = [c](const Sample& s) -> Vector6 {
-      const Closure& closure = s.system.closures[c];
-      return s.ws.W_A.middleCols(closure.row_start, closure.rows) *
-             s.ws.lambda.segment(closure.row_start, closure.rows);
+      return closure_wrench(s.system.closures[c], 0, s.ws.lambda, s.ws);
     };
     add(path + "/force", {3}, "N", kWorld,
         "reaction on the first-named body, at the joint; none along directions that are redundant",
@@ -250,7 +244,7 @@ void Observer::add_forces(const System& system) {
 
 void Observer::add_vehicle(const ObserverOptions& options) {
   const int chassis = options.chassis;
-  const auto state = [chassis](const Sample& s) -> const BodyState& { return s.ws.bodies[chassis]; };
+  const auto state = [chassis](const Sample& s) -> const BodyMotion& { return s.ws.bodies[chassis]; };
   const auto v_B = [state](const Sample& s) -> Vector3 {
     return state(s).X_WB.R.transpose() * linear(state(s).V);
   };

@@ -23,6 +23,7 @@ struct TreeBody {
   std::string name;
   std::string joint_name;
   bool floating = false;  ///< on a free joint that the scene does not name
+  bool first_is_child = false;  ///< the joint's first-named body is this one, not the parent
   int parent = -1;  ///< index of the inboard body, always smaller than the own index; -1: the inertial frame
   int parent_node = -1;  ///< interface node of a flexible parent that carries the joint; -1: rigid parent
   Pose X_PF;  ///< inboard joint frame on the parent (the node's undeformed position on a flexible one)
@@ -51,13 +52,15 @@ struct Marker {
   Pose X_BM;      ///< on the body (for a node only the rotation is used)
 };
 
-/// A cut joint between two markers, and the bodies that feel its multipliers.
+/// A cut joint between markers, and the bodies that feel its multipliers.
 struct Closure {
   std::string name;
   CutJoint joint;
-  MarkerIndex A = 0, B = 0;
+  std::vector<MarkerIndex> markers;  ///< participants: on the first- and the second-named body, or those of a coupling
   int row_start = 0, rows = 0;
-  std::vector<int> path;  ///< bodies between either marker and the root, outermost first
+  int column_start = 0;   ///< of its unit wrenches in Evaluation::W: `rows` columns for each participant
+  int gauge_start = 0;    ///< of its gauges in Memory::closure_angles
+  std::vector<int> path;  ///< bodies between any of the markers and the root, outermost first
 };
 
 /// Force elements by concrete type, so that the evaluation calls them without dispatch. A new force is one entry.
@@ -73,10 +76,15 @@ struct System {
   std::vector<Closure> closures;
   ForceElements forces;
 
+  /// Factors on the speeds' shares in the metric in which the initial pose is assembled; empty: all one.
+  VectorX assembly_weights;
+
   int nq = 0;      ///< coordinates q, modal ones included
   int nv = 0;      ///< speeds v
   int nx = 0;      ///< states of the force elements
-  int n_rows = 0;  ///< closure rows, redundant ones included
+  int n_rows = 0;     ///< closure rows, redundant ones included
+  int n_columns = 0;  ///< unit wrenches of all closure rows on their markers
+  int n_gauges = 0;   ///< of all closures
   int n_forces = 0;
 
   /// Of all bodies [kg].

@@ -47,7 +47,7 @@ Pose SystemBuilder::attachment_pose(Attachment on) const {
 }
 
 void SystemBuilder::add_joint(std::string name, Attachment parent, int child, const Vector3& p_W,
-                              TreeJoint joint, double coordinate, double speed) {
+                              TreeJoint joint, InitialMotion initial, bool first_is_child) {
   BodyEntry& body = bodies_[child];
   if (body.joint >= 0)
     throw InputError(
@@ -59,8 +59,8 @@ void SystemBuilder::add_joint(std::string name, Attachment parent, int child, co
                       "body '" + body.name + "'",
                       "name the flexible body first (as the parent) or cut the joint"});
   body.joint = static_cast<int>(joints_.size());
-  joints_.push_back(
-      {std::move(name), parent, interface_index(parent), child, p_W, std::move(joint), coordinate, speed});
+  joints_.push_back({std::move(name), parent, interface_index(parent), child, p_W, std::move(joint),
+                     std::move(initial), first_is_child});
 }
 
 MarkerIndex SystemBuilder::add_marker(Attachment on, const Vector3& p_W, const Matrix3& R_WM) {
@@ -74,13 +74,12 @@ MarkerIndex SystemBuilder::add_marker(Attachment on) {
   return add_marker(on, X_WM.p, X_WM.R);
 }
 
-void SystemBuilder::add_closure(std::string name, MarkerIndex A, MarkerIndex B, CutJoint joint) {
+void SystemBuilder::add_closure(std::string name, std::vector<MarkerIndex> markers, CutJoint joint) {
   Closure closure;
   closure.name = std::move(name);
-  closure.joint = joint;
-  closure.A = A;
-  closure.B = B;
   closure.rows = row_count(joint);
+  closure.joint = std::move(joint);
+  closure.markers = std::move(markers);
   closures_.push_back(std::move(closure));
 }
 
@@ -123,6 +122,7 @@ void SystemBuilder::add_tree_body(int entry, System& system, State& state) {
     body.joint = joint.joint;
     body.parent = joint.parent.body == kGround ? -1 : order_of_[joint.parent.body];
     body.parent_node = joint.node;
+    body.first_is_child = joint.first_is_child;
   }
   body.nq = coordinate_count(body.joint);
   body.nv = speed_count(body.joint);
@@ -146,10 +146,12 @@ void SystemBuilder::add_tree_body(int entry, System& system, State& state) {
     const Pose X_WF{source.X_WB.R, joint.p_W};
     body.X_PF = X_WP.inverse() * X_WF;
     body.X_MB = X_WF.inverse() * source.X_WB;
-    if (body.nv == 1) {
-      q[0] = joint.coordinate;
-      v[0] = joint.speed;
-    }
+    const InitialMotion& initial = joint.initial;
+    if (body.nq == body.nv)
+      for (std::size_t i = 0; i < initial.coordinates.size(); ++i) q[i] = initial.coordinates[i];
+    for (std::size_t i = 0; i < initial.speeds.size(); ++i) v[i] = initial.speeds[i];
+    weights_.resize(system.nv, 1.0);
+    weights_.insert(weights_.end(), initial.weights.begin(), initial.weights.end());
   }
 
   body.q_start = system.nq;
@@ -177,7 +179,7 @@ void SystemBuilder::add_tree_body(int entry, System& system, State& state) {
 void SystemBuilder::find_paths(System& system) const {
   for (Closure& closure : system.closures) {
     std::vector<bool> on_path(system.bodies.size(), false);
-    for (const MarkerIndex marker : {closure.A, closure.B})
+    for (const MarkerIndex marker : closure.markers)
       for (int i = system.markers[marker].body; i >= 0; i = system.bodies[i].parent) on_path[i] = true;
     for (int i = static_cast<int>(system.bodies.size()) - 1; i >= 0; --i)
       if (on_path[i]) closure.path.push_back(i);
@@ -201,7 +203,11 @@ std::pair<System, State> SystemBuilder::build() && {
   system.closures = std::move(closures_);
   for (Closure& closure : system.closures) {
     closure.row_start = system.n_rows;
+    closure.column_start = system.n_columns;
+    closure.gauge_start = system.n_gauges;
     system.n_rows += closure.rows;
+    system.n_columns += closure.rows * static_cast<int>(closure.markers.size());
+    system.n_gauges += gauge_count(closure.joint);
   }
   find_paths(system);
 
@@ -217,6 +223,9 @@ std::pair<System, State> SystemBuilder::build() && {
       },
       system.forces);
   state.x = VectorX::Zero(system.nx);
+  weights_.resize(system.nv, 1.0);
+  if (std::any_of(weights_.begin(), weights_.end(), [](double w) { return w != 1.0; }))
+    system.assembly_weights = Eigen::Map<VectorX>(weights_.data(), system.nv);
   return {std::move(system), std::move(state)};
 }
 

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bodies/mode_set.h"
@@ -31,13 +32,24 @@ class SystemBuilder {
   /// Initial velocity of a floating body: v_WBo inertial components [m/s], w_WB body components [rad/s].
   void set_velocity(int body, const Vector3& v_WB, const Vector3& w_WB_B);
 
-  /// Tree joint that carries `child` on `parent` at the point p_W. For revolute, prismatic and prescribed joints the axis
-  /// has the components of the child's body axes. `coordinate` and `speed` are the initial values of a joint with one freedom.
-  void add_joint(std::string name, Attachment parent, int child, const Vector3& p_W, TreeJoint joint,
-                 double coordinate = 0, double speed = 0);
+  /// Initial values of a joint's coordinates and speeds (in the order of its v), and the factors on its speeds' shares in the
+  /// metric in which the initial pose is assembled; what is left empty is zero, or one. Joints with quaternions start in the
+  /// design pose.
+  struct InitialMotion {
+    std::vector<double> coordinates, speeds, weights;
+  };
 
-  /// Cut joint between markers.
-  void add_closure(std::string name, MarkerIndex A, MarkerIndex B, CutJoint joint);
+  /// Tree joint that carries `child` on `parent` at the point p_W. Axes have the components of the child's body axes.
+  /// `first_is_child`: the joint was named from child to parent, so reactions and coordinates are those of its reverse.
+  void add_joint(std::string name, Attachment parent, int child, const Vector3& p_W, TreeJoint joint,
+                 InitialMotion initial = {}, bool first_is_child = false);
+  void add_joint(std::string name, Attachment parent, int child, const Vector3& p_W, TreeJoint joint,
+                 double coordinate, double speed = 0) {
+    add_joint(std::move(name), parent, child, p_W, std::move(joint), {{coordinate}, {speed}, {}});
+  }
+
+  /// Cut joint between the markers of its participants.
+  void add_closure(std::string name, std::vector<MarkerIndex> markers, CutJoint joint);
 
   /// Marker at p_W with axes R_WM in the design pose; on a node, at the node.
   MarkerIndex add_marker(Attachment on, const Vector3& p_W, const Matrix3& R_WM = Matrix3::Identity());
@@ -79,7 +91,8 @@ class SystemBuilder {
     int child;
     Vector3 p_W;
     TreeJoint joint;
-    double coordinate, speed;
+    InitialMotion initial;
+    bool first_is_child;
   };
 
   int interface_index(Attachment on);
@@ -93,6 +106,7 @@ class SystemBuilder {
   std::vector<Closure> closures_;
   ForceElements forces_;
   std::vector<int> order_of_;  // entry -> index in System::bodies
+  std::vector<double> weights_;  // of the speeds, in the order of System
 };
 
 }  // namespace wishbone

@@ -18,7 +18,7 @@ constexpr long kPatience = 10'000;  // steps between two looks at the progress
 class Run {
  public:
   Run(const System& system, State state, const TransientOptions& options, Workspace& ws, const Output& output)
-      : system_(system), options_(options), ws_(ws), output_(output), state_(std::move(state)) {
+      : system_(system), options_(options), ws_(ws), output_(output), state_(std::move(state)), counts_turns_(counts_turns(system)) {
     stops_ = system.stop_times();
     std::erase_if(stops_, [&](double t) { return t <= state_.t || t >= options.duration; });
     stops_.push_back(options.duration);
@@ -27,8 +27,8 @@ class Run {
   void start(TransientSummary& summary) {
     summary.integrator = resolve(options_.integrator, system_);
     summary.assembly = assemble(system_, state_, ws_);
-    update_positions(system_, state_.t, state_.q, ws_);
-    update_markers(system_, ws_);
+    update_positions<double>(system_, state_.t, state_.q, ws_);
+    update_markers<double>(system_, ws_);
     initialize_segments(system_, ws_);
     integrator_ = make_integrator(system_, summary.integrator, ws_);
     integrator_->restart(state_, work_);
@@ -51,6 +51,7 @@ class Run {
           for (const int event : step.events) handle_event(system_, event, ws_);
           restart(t, summary);
         }
+        if (t < stop) accept(t, summary);
       }
       if (stop < options_.duration) restart(stop, summary);
       state_.t = stop;
@@ -59,7 +60,10 @@ class Run {
     summary.message = "complete";
   }
 
-  Statistics statistics() const { return integrator_ ? integrator_->statistics() : Statistics{}; }
+  void report(TransientSummary& summary) const {
+    summary.singular_passages = watch_.passages();
+    summary.statistics = integrator_ ? integrator_->statistics() : Statistics{};
+  }
 
  private:
   double output_time(long k) const { return static_cast<double>(k) * options_.interval; }
@@ -85,18 +89,30 @@ class Run {
   void interpolate(double t) {
     integrator_->interpolate(t, state_, work_);
     normalize_quaternions(system_, state_.q);
-    if (ws_.kept.empty()) return;
-    if (project_positions(system_, kProjectionTolerance, state_, ws_) < 0)
+    if (ws_.closure.kept.empty()) return;
+    if (!project(system_, kProjectionTolerance, state_, ws_))
       throw NumericsError({fmt::format("t = {:.9g} s", t),
                            "the state could not be brought back onto the cut joints", "",
                            "tighten analysis.rtol, or look for a singular position at this time"});
-    project_velocities(system_, state_, ws_);
   }
 
   void restart(double t, TransientSummary& summary) {
     interpolate(t);
     integrator_->restart(state_, work_);
     ++summary.restarts;
+  }
+
+  /// Looks after what is remembered from step to step: turns of angles, the choice of closure rows and of variables.
+  void accept(double t, TransientSummary& summary) {
+    if (counts_turns_) {
+      interpolate(t);
+      update_positions<double>(system_, t, state_.q, ws_);
+      update_markers<double>(system_, ws_);
+      remember_angles(system_, state_, ws_);
+    }
+    if (system_.n_rows == 0) return;
+    watch_.observe(t, ws_.closure);
+    if (integrator_->outlived()) restart(t, summary);
   }
 
   void check_limits(const IntegratorOptions& options, double t) const {
@@ -128,6 +144,8 @@ class Run {
   Work work_;
   std::vector<double> stops_;
   std::unique_ptr<Integrator> integrator_;
+  SingularWatch watch_;
+  bool counts_turns_;
   long next_output_ = 0;
   long steps_ = 0;
   double t_patience_ = 0;
@@ -147,7 +165,7 @@ TransientSummary run_transient(const System& system, State state, const Transien
     summary.status = TransientSummary::Status::failed;
     summary.message = error.what();
   }
-  summary.statistics = run.statistics();
+  run.report(summary);
   return summary;
 }
 

@@ -4,6 +4,7 @@
 
 #include "solver/assembly.h"
 #include "solver/integrator.h"
+#include "solver/singular_watch.h"
 
 namespace wishbone {
 
@@ -22,7 +23,8 @@ struct TransientSummary {
   IntegratorOptions integrator;  ///< as resolved
   AssemblyReport assembly;
   Statistics statistics;
-  long restarts = 0;  ///< of the integrator at events and kinks of prescribed motions
+  long restarts = 0;  ///< of the integrator at events, kinks of prescribed motions and changes of variables
+  std::vector<SingularPassage> singular_passages;
 };
 
 /// Called at every output time with a consistent state.

@@ -2,34 +2,64 @@
 
 #include <numeric>
 
+#include "core/dual.h"
+
 namespace wishbone {
 
-Workspace::Workspace(const System& system)
+template <class T>
+Evaluation<T>::Evaluation(const System& system)
     : bodies(system.bodies.size()),
       markers(system.markers.size()),
       marker_accelerations(system.markers.size()),
       wrenches(system.markers.size()),
-      segments(system.n_forces, 0),
-      element_powers(system.n_forces, 0.0),
+      element_powers(system.n_forces, T(0)),
+      x_rate(VectorXT<T>::Zero(system.nx)),
+      Phi(VectorXT<T>::Zero(system.n_rows)),
+      Phi_rate(VectorXT<T>::Zero(system.n_rows)),
+      Phi_dd(VectorXT<T>::Zero(system.n_rows)),
+      W(Matrix6XT<T>::Zero(6, system.n_columns)),
+      memory{std::vector<int>(system.n_forces, 0), std::vector<double>(system.n_forces, 0.0),
+             std::vector<double>(system.n_gauges, 0.0)} {
+  for (const FlexibleBody& body : system.flexible) {
+    const int m = body.modal.mode_count();
+    flexible.push_back({body.modal.make_state<T>(), VectorXT<T>::Zero(m), VectorXT<T>::Zero(m)});
+  }
+}
+
+template struct Evaluation<double>;
+template struct Evaluation<Dual>;
+
+Workspace::Workspace(const System& system)
+    : Evaluation<double>(system),
+      articulated(system.bodies.size()),
       v_rate(VectorX::Zero(system.nv)),
-      x_rate(VectorX::Zero(system.nx)),
-      Phi(VectorX::Zero(system.n_rows)),
-      Phi_rate(VectorX::Zero(system.n_rows)),
-      Phi_dd(VectorX::Zero(system.n_rows)),
-      W_A(Matrix6X::Zero(6, system.n_rows)),
-      W_B(Matrix6X::Zero(6, system.n_rows)),
+      e(VectorX::Zero(system.nv)),
+      hinge_force(VectorX::Zero(system.nv)),
       lambda(VectorX::Zero(system.n_rows)),
       displacement(VectorX::Zero(system.nv)),
       z(Matrix6X::Zero(6, 6 * static_cast<Eigen::Index>(system.bodies.size()))) {
   for (const FlexibleBody& body : system.flexible) {
     const int m = body.modal.mode_count();
-    flexible.push_back({body.modal.make_state(), VectorX::Zero(m),
-                        body.carries_joints ? MatrixX(MatrixX::Identity(m, m)) : MatrixX(),
-                        MatrixX::Zero(m, 6), Matrix3X::Zero(3, m), VectorX::Zero(m), VectorX::Zero(m)});
+    condensed.push_back({body.carries_joints ? MatrixX(MatrixX::Identity(m, m)) : MatrixX(),
+                         MatrixX::Zero(m, 6), Matrix3X::Zero(3, m)});
   }
   std::vector<int> all(system.n_rows);
   std::iota(all.begin(), all.end(), 0);
   keep_rows(all, system, *this);
+}
+
+void keep_rows(const std::vector<int>& rows, const System& system, Workspace& ws) {
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  ClosureFactor& f = ws.closure;
+  f.kept = rows;
+  f.U = MatrixX::Zero(system.nv, n);
+  f.S = MatrixX::Zero(n, n);
+  f.qr = Eigen::ColPivHouseholderQR<MatrixX>(system.nv, n);
+  f.scaled = MatrixX::Zero(system.nv, n);
+  f.solution = f.scratch = f.lengths = VectorX::Zero(n);
+  f.rank = static_cast<int>(n);
+  f.orthogonal = false;
+  ws.lambda.setZero();
 }
 
 }  // namespace wishbone

@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/dual.h"
 #include "core/require.h"
 
 namespace wishbone {
@@ -40,19 +41,25 @@ int Road::segment_at(double x) const {
   return segment;
 }
 
-RoadPoint Road::at(double x, double y, int segment) const {
+template <class T>
+RoadPointT<T> Road::at(const T& x, const T& y, int segment) const {
+  using std::cos;
+  using std::sin;
   const Segment& s = segments_[segment];
-  RoadPoint road;
+  RoadPointT<T> road;
   road.height = y * tan_bank_;
   road.slope_y = tan_bank_;
   if (s.depth != 0) {
     // H = y tan(bank) - h sin(k (x - x0)),  dH/dx = -h k cos(k (x - x0))
-    const double phase = s.wave_number * (x - s.lower);
-    road.height -= s.depth * std::sin(phase);
-    road.slope_x = -s.depth * s.wave_number * std::cos(phase);
+    const T phase = s.wave_number * (x - s.lower);
+    road.height -= s.depth * sin(phase);
+    road.slope_x = -s.depth * s.wave_number * cos(phase);
   }
-  road.uz = Vector3(-road.slope_x, -road.slope_y, 1.0).normalized();
+  road.uz = Vector3T<T>(-road.slope_x, -road.slope_y, T(1)).normalized();
   return road;
 }
+
+template RoadPointT<double> Road::at(const double&, const double&, int) const;
+template RoadPointT<Dual> Road::at(const Dual&, const Dual&, int) const;
 
 }  // namespace wishbone

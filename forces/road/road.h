@@ -15,12 +15,14 @@ struct RoadDepression {
 };
 
 /// The road straight above or below one point of the plane.
-struct RoadPoint {
-  double height = 0;              ///< H [m]
-  double slope_x = 0;             ///< dH/dx
-  double slope_y = 0;             ///< dH/dy
-  Vector3 uz = Vector3::UnitZ();  ///< unit normal, world components, upward: (-dH/dx, -dH/dy, 1) normalised
+template <class T>
+struct RoadPointT {
+  T height = T(0);              ///< H [m]
+  T slope_x = T(0);             ///< dH/dx
+  T slope_y = T(0);             ///< dH/dy
+  Vector3T<T> uz = Vector3T<T>::UnitZ();  ///< unit normal, world components, upward: (-dH/dx, -dH/dy, 1) normalised
 };
+using RoadPoint = RoadPointT<double>;
 
 /// Road surface z = H(x, y) = y tan(bank) + profile(x), world axes, z up; bank > 0 raises the left (+y) side.
 ///
@@ -45,7 +47,8 @@ class Road {
   double upper_edge(int segment) const { return segments_[segment].upper; }  ///< [m]; +infinity for the last
 
   /// The surface at (x, y) by the formula of `segment`, whether or not x lies within its edges.
-  RoadPoint at(double x, double y, int segment) const;
+  template <class T>
+  RoadPointT<T> at(const T& x, const T& y, int segment) const;
 
  private:
   // profile = -depth sin(wave_number (x - lower)); a flat segment has depth and wave number zero

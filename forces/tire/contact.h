@@ -15,24 +15,27 @@ namespace wishbone {
 ///     d = (C - P0).uz,   rho = d/(-e.uz),   P = C + rho e,   delta = R1 - rho (in contact when positive).
 /// Velocities are those of the point of the *non-spinning* wheel carrier at P:
 ///     v_P = v_C + (w - (w.us) us) x (P - C).
-struct WheelContact {
-  Vector3 P0;  ///< road point below the wheel centre [m]
-  Vector3 P;   ///< contact point, in the wheel plane and in the tangent plane of the road [m]
-  Vector3 ux, uy, uz;
-  double upright = 0;        ///< |us x uz| = cos(camber); the geometry is lost at 0, when the wheel lies flat
-  double loaded_radius = 0;  ///< rho [m]
-  double deflection = 0;     ///< delta [m]; negative in the air
-  double deflection_rate = 0;  ///< delta' = -v_P.uz [m/s]
-  double camber = 0;  ///< gamma = -asin(us.uz) [rad], positive when the top of the wheel leans toward +uy
-  double vx = 0;      ///< v_P.ux [m/s]
-  double vy = 0;      ///< v_P.uy [m/s]
-  double spin = 0;    ///< Omega = w.us [rad/s]
-  double v_cir = 0;   ///< circumferential velocity of the tread (R1 - delta/3) Omega [m/s]
+template <class T>
+struct WheelContactT {
+  Vector3T<T> P0;  ///< road point below the wheel centre [m]
+  Vector3T<T> P;   ///< contact point, in the wheel plane and in the tangent plane of the road [m]
+  Vector3T<T> ux, uy, uz;
+  T upright = T(0);        ///< |us x uz| = cos(camber); the geometry is lost at 0, when the wheel lies flat
+  T loaded_radius = T(0);  ///< rho [m]
+  T deflection = T(0);     ///< delta [m]; negative in the air
+  T deflection_rate = T(0);  ///< delta' = -v_P.uz [m/s]
+  T camber = T(0);  ///< gamma = -asin(us.uz) [rad], positive when the top of the wheel leans toward +uy
+  T vx = T(0);      ///< v_P.ux [m/s]
+  T vy = T(0);      ///< v_P.uy [m/s]
+  T spin = T(0);    ///< Omega = w.us [rad/s]
+  T v_cir = T(0);   ///< circumferential velocity of the tread (R1 - delta/3) Omega [m/s]
 };
+using WheelContact = WheelContactT<double>;
 
 /// @param wheel marker at the wheel centre whose y axis is the spin axis, pointing left; its w_WM includes
 /// the spin
 /// @param segment active road segment
-WheelContact wheel_contact(const MarkerState& wheel, double radius, const Road& road, int segment);
+template <class T>
+WheelContactT<T> wheel_contact(const MarkerStateT<T>& wheel, double radius, const Road& road, int segment);
 
 }  // namespace wishbone

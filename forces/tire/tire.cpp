@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/dual.h"
 #include "core/require.h"
 
 namespace wishbone {
@@ -17,10 +18,12 @@ constexpr double kLeastUpright = 1e-3;  // cos(camber) below which the wheel cou
 
 // u' = -w - vr s - |w| (|s| - 1)+ sign(s), s = u/sigma, w the slip velocity. Up to slip 1 the deflection
 // tends to the kinematic slip -w/vr; the last term bounds it by 2 sigma however small vr is.
-double lag_rate(double deflection, double sigma, double slip_velocity, double vr) {
-  const double s = deflection / sigma;
-  const double excess = std::copysign(std::max(0.0, std::abs(s) - 1), s);
-  return -slip_velocity - vr * s - std::abs(slip_velocity) * excess;
+template <class T>
+T lag_rate(const T& deflection, double sigma, const T& slip_velocity, const T& vr) {
+  using std::abs;
+  const T s = deflection / sigma;
+  const T excess = abs(s) > 1 ? T(s - (s > 0 ? 1.0 : -1.0)) : T(0);
+  return -slip_velocity - vr * s - abs(slip_velocity) * excess;
 }
 
 }  // namespace
@@ -40,64 +43,70 @@ Tire::Tire(std::string name, MarkerIndex wheel, UaTireParameters parameters, Roa
           parameters_.relaxation_y, "give the lateral relaxation length, or switch `lag` off");
 }
 
-WheelContact Tire::checked_contact(const ForceInput& input) const {
-  const WheelContact contact = wheel_contact(input.markers[wheel_], parameters_.radius, road_, input.segment);
+template <class T>
+WheelContactT<T> Tire::checked_contact(const ForceInputT<T>& input) const {
+  const WheelContactT<T> contact = wheel_contact(input.markers[wheel_], parameters_.radius, road_, input.segment);
   const auto fail = [&](const char* what, double value) {
     throw NumericsError({fmt::format("{} at t = {} s", name_, input.time), what, fmt::format("{:g}", value),
                          "check the initial pose and whether the vehicle rolled over"});
   };
   if (!(contact.upright > kLeastUpright))
-    fail("the wheel lies flat on the road: cosine of its camber", contact.upright);
+    fail("the wheel lies flat on the road: cosine of its camber", value_of(contact.upright));
   if (!(contact.loaded_radius > 0))
-    fail("the wheel centre is not above the road: loaded radius [m]", contact.loaded_radius);
+    fail("the wheel centre is not above the road: loaded radius [m]", value_of(contact.loaded_radius));
   return contact;
 }
 
-UaSlip Tire::slip(const WheelContact& c, const ForceInput& input) const {
+template <class T>
+UaSlipT<T> Tire::slip(const WheelContactT<T>& c, const ForceInputT<T>& input) const {
   if (!lag_) return ua_slip(c.vx, c.vy, c.v_cir, c.camber);
   return {input.states[0] / parameters_.relaxation_x, input.states[1] / parameters_.relaxation_y, c.camber};
 }
 
-Tire::Evaluation Tire::evaluate(const ForceInput& input) const {
-  Evaluation e;
+template <class T>
+Tire::Evaluation<T> Tire::evaluate(const ForceInputT<T>& input) const {
+  using std::tanh;
+  Evaluation<T> e;
   e.contact = checked_contact(input);
-  const WheelContact& c = e.contact;
+  const WheelContactT<T>& c = e.contact;
   if (c.deflection <= 0) return e;
 
   e.Fz = ua_normal_force(parameters_, c.deflection, c.deflection_rate);
-  const double l = ua_patch_length(parameters_, c.deflection);
-  const UaSlip s = slip(c, input);
+  const T l = ua_patch_length(parameters_, c.deflection);
+  const UaSlipT<T> s = slip(c, input);
   e.shear = form_ == UaForm::kSmooth ? ua_shear_smooth(parameters_, s, l, e.Fz)
                                      : ua_shear_classic(parameters_, s, l, e.Fz);
-  const double rolling = std::tanh(c.spin / kRollingSpeed);
+  const T rolling = tanh(c.spin / kRollingSpeed);
   e.Ty = -parameters_.rolling_resistance * e.Fz * rolling;
   e.Tz = rolling * e.shear.tz_lateral + e.shear.tz_traction;
   return e;
 }
 
-void Tire::apply(const ForceInput& input, ForceOutput& output) const {
-  const MarkerState& wheel = input.markers[wheel_];
-  const Evaluation e = evaluate(input);
-  const WheelContact& c = e.contact;
+template <class T>
+void Tire::apply(const ForceInputT<T>& input, ForceOutputT<T>& output) const {
+  const MarkerStateT<T>& wheel = input.markers[wheel_];
+  const Evaluation<T> e = evaluate(input);
+  const WheelContactT<T>& c = e.contact;
 
   if (lag_) set_lag_rates(c, input, output);
-  output.power = 0;
+  output.power = T(0);
   if (c.deflection <= 0) return;
 
   // M_C = M_P + (P - C) x F
-  const Vector3 f = e.shear.fx * c.ux + e.shear.fy * c.uy + e.Fz * c.uz;
-  const Vector3 t = e.Ty * c.uy + e.Tz * c.uz + (c.P - wheel.p_WM).cross(f);
+  const Vector3T<T> f = e.shear.fx * c.ux + e.shear.fy * c.uy + e.Fz * c.uz;
+  const Vector3T<T> t = e.Ty * c.uy + e.Tz * c.uz + (c.P - wheel.p_WM).cross(f);
   output.wrenches[wheel_].f += f;
   output.wrenches[wheel_].t += t;
   output.power = f.dot(wheel.v_WM) + t.dot(wheel.w_WM);
 }
 
-void Tire::set_lag_rates(const WheelContact& c, const ForceInput& input, ForceOutput& output) const {
+template <class T>
+void Tire::set_lag_rates(const WheelContactT<T>& c, const ForceInputT<T>& input, ForceOutputT<T>& output) const {
   const double touching = c.deflection > 0 ? 1.0 : 0.0;
-  const double vr = ua_slip_reference_speed(c.vx, c.v_cir);
+  const T vr = ua_slip_reference_speed(c.vx, c.v_cir);
   output.state_rates[0] =
-      lag_rate(input.states[0], parameters_.relaxation_x, touching * (c.vx - c.v_cir), vr);
-  output.state_rates[1] = lag_rate(input.states[1], parameters_.relaxation_y, touching * c.vy, vr);
+      lag_rate(input.states[0], parameters_.relaxation_x, T(touching * (c.vx - c.v_cir)), vr);
+  output.state_rates[1] = lag_rate(input.states[1], parameters_.relaxation_y, T(touching * c.vy), vr);
 }
 
 double Tire::energy(const ForceInput& input) const {
@@ -106,7 +115,7 @@ double Tire::energy(const ForceInput& input) const {
 }
 
 TireOutput Tire::output(const ForceInput& input) const {
-  const Evaluation e = evaluate(input);
+  const Evaluation<double> e = evaluate(input);
   const WheelContact& c = e.contact;
   TireOutput out;
   out.contact = c.deflection > 0;
@@ -121,5 +130,8 @@ TireOutput Tire::output(const ForceInput& input) const {
   out.moment = Vector3(0.0, e.Ty, e.Tz);
   return out;
 }
+
+template void Tire::apply(const ForceInputT<double>&, ForceOutputT<double>&) const;
+template void Tire::apply(const ForceInputT<Dual>&, ForceOutputT<Dual>&) const;
 
 }  // namespace wishbone

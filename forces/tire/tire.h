@@ -55,23 +55,30 @@ class Tire {
   const Road& road() const { return road_; }
 
   int state_count() const { return lag_ ? 2 : 0; }
-  void apply(const ForceInput& input, ForceOutput& output) const;
+  template <class T>
+  void apply(const ForceInputT<T>& input, ForceOutputT<T>& output) const;
   double energy(const ForceInput& input) const;
   TireOutput output(const ForceInput& input) const;
 
  private:
   // Everything one evaluation needs of the contact: forces and moments in contact axes, about P.
+  template <class T>
   struct Evaluation {
-    WheelContact contact;
-    double Fz = 0;
-    UaShear shear;
-    double Ty = 0;
-    double Tz = 0;
+    WheelContactT<T> contact;
+    T Fz = T(0);
+    UaShearT<T> shear;
+    T Ty = T(0);
+    T Tz = T(0);
   };
-  WheelContact checked_contact(const ForceInput& input) const;
-  UaSlip slip(const WheelContact& contact, const ForceInput& input) const;
-  Evaluation evaluate(const ForceInput& input) const;
-  void set_lag_rates(const WheelContact& contact, const ForceInput& input, ForceOutput& output) const;
+  template <class T>
+  WheelContactT<T> checked_contact(const ForceInputT<T>& input) const;
+  template <class T>
+  UaSlipT<T> slip(const WheelContactT<T>& contact, const ForceInputT<T>& input) const;
+  template <class T>
+  Evaluation<T> evaluate(const ForceInputT<T>& input) const;
+  template <class T>
+  void set_lag_rates(const WheelContactT<T>& contact, const ForceInputT<T>& input,
+                     ForceOutputT<T>& output) const;
 
   std::string name_;
   MarkerIndex wheel_;

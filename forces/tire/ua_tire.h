@@ -43,23 +43,27 @@ enum class UaForm {
 };
 
 /// Signed slips: positive sx drives (Fx > 0), positive sy pushes left (Fy > 0), positive gamma leans left.
-struct UaSlip {
-  double sx = 0;     ///< -S = -(vx - v_cir)/vr
-  double sy = 0;     ///< -vy/vr; -tan(slip angle) under braking
-  double gamma = 0;  ///< camber, top of the wheel toward +y [rad]
+template <class T>
+struct UaSlipT {
+  T sx = T(0);     ///< -S = -(vx - v_cir)/vr
+  T sy = T(0);     ///< -vy/vr; -tan(slip angle) under braking
+  T gamma = T(0);  ///< camber, top of the wheel toward +y [rad]
 };
+using UaSlip = UaSlipT<double>;
 
 /// Tangential forces and their moment about the patch centre. The moment comes in two parts because only the
 /// first changes sides when the wheel rolls backward (the leading edge is then the rear one).
-struct UaShear {
-  double fx = 0;            ///< [N]
-  double fy = 0;            ///< [N]
-  double tz_lateral = 0;    ///< of the lateral stress times its distance from the patch centre [N m]
-  double tz_traction = 0;   ///< of the longitudinal stress times the lateral offset of the tread line [N m]
-  double friction = 0;      ///< mu at this slip
-  double sliding_part = 0;  ///< Sn = 1 - l_n: part of the patch that slides, 0 ... 1
-  double tz() const { return tz_lateral + tz_traction; }  ///< rolling forward [N m]
+template <class T>
+struct UaShearT {
+  T fx = T(0);            ///< [N]
+  T fy = T(0);            ///< [N]
+  T tz_lateral = T(0);    ///< of the lateral stress times its distance from the patch centre [N m]
+  T tz_traction = T(0);   ///< of the longitudinal stress times the lateral offset of the tread line [N m]
+  T friction = T(0);      ///< mu at this slip
+  T sliding_part = T(0);  ///< Sn = 1 - l_n: part of the patch that slides, 0 ... 1
+  T tz() const { return tz_lateral + tz_traction; }  ///< rolling forward [N m]
 };
+using UaShear = UaShearT<double>;
 
 /// Speed below which slips are regularised [m/s].
 inline constexpr double kUaSlipSpeedFloor = 0.1;
@@ -67,17 +71,21 @@ inline constexpr double kUaSlipSpeedFloor = 0.1;
 /// vr = sqrt(max(|vx|, |v_cir|)^2 + v_eps^2) [m/s]: what slip velocities are divided by. One expression for
 /// braking (vx rules) and traction (v_cir rules), positive at standstill. Continuous; its slope has a kink at
 /// vx = v_cir.
-double ua_slip_reference_speed(double vx, double v_cir);
+template <class T>
+T ua_slip_reference_speed(const T& vx, const T& v_cir);
 
 /// Kinematic slips of a contact point that moves with (vx, vy) while the tread circulates with v_cir [m/s].
-UaSlip ua_slip(double vx, double vy, double v_cir, double gamma);
+template <class T>
+UaSlipT<T> ua_slip(const T& vx, const T& vy, const T& v_cir, const T& gamma);
 
 /// Patch length l = sqrt(8 R1 delta) [m] of a penetration delta [m].
-double ua_patch_length(const UaTireParameters& tire, double delta);
+template <class T>
+T ua_patch_length(const UaTireParameters& tire, const T& delta);
 
 /// Fz = max(0, Cz delta + 2 zeta sqrt(mt Cz) delta' STEP(delta)) for delta > 0, else 0 [N]. STEP is the cubic
 /// 3 t^2 - 2 t^3 from 0 to 1 over the first 2 mm, so that damping fades in from zero at touch-down.
-double ua_normal_force(const UaTireParameters& tire, double delta, double delta_rate);
+template <class T>
+T ua_normal_force(const UaTireParameters& tire, const T& delta, const T& delta_rate);
 
 /// The continuous form. With ax = Cs sx, ay = C_alpha sy, F = mu Fz and ag = C_gamma sin(gamma) held within
 /// +-F, sliding starts at xi = l_n = 1 - Sn where |(ax, ay + 3 ag Sn)| = 3 F Sn and keeps the direction u of
@@ -85,7 +93,8 @@ double ua_normal_force(const UaTireParameters& tire, double delta, double delta_
 ///     Fx = ax l_n^2 + F ux g,
 ///     Fy = ay l_n^2 + ag (3 l_n^2 - 2 l_n^3) + F uy g,   g = 1 - 3 l_n^2 + 2 l_n^3.
 /// Mirror symmetric: (sy, gamma) -> -(sy, gamma) keeps Fx and turns Fy and Tz. |(Fx, Fy)| <= mu Fz always.
-UaShear ua_shear_smooth(const UaTireParameters& tire, const UaSlip& slip, double patch_length, double Fz);
+template <class T>
+UaShearT<T> ua_shear_smooth(const UaTireParameters& tire, const UaSlipT<T>& slip, const T& patch_length, const T& Fz);
 
 /// The published form: magnitudes in three cases by the signs of slip angle alpha and camber gamma,
 /// recombined by signs.
@@ -96,6 +105,7 @@ UaShear ua_shear_smooth(const UaTireParameters& tire, const UaSlip& slip, double
 /// sign(gamma), which complete sliding requires there and which makes Fy and Tz jump between II and III.
 /// Under braking or traction Tz also jumps at alpha = 0 of a leaning wheel (I and III), for its sign is that
 /// of alpha.
-UaShear ua_shear_classic(const UaTireParameters& tire, const UaSlip& slip, double patch_length, double Fz);
+template <class T>
+UaShearT<T> ua_shear_classic(const UaTireParameters& tire, const UaSlipT<T>& slip, const T& patch_length, const T& Fz);
 
 }  // namespace wishbone

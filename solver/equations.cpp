@@ -1,0 +1,13 @@
+#include "solver/equations.h"
+
+#include "solver/partition.h"
+
+namespace wishbone {
+
+std::unique_ptr<FirstOrderSystem> make_equations(const System& system, const IntegratorOptions& options,
+                                                 Workspace& ws) {
+  if (options.form == Form::partition) return std::make_unique<PartitionedSystem>(system, ws);
+  return std::make_unique<FirstOrderSystem>(system, ws);
+}
+
+}  // namespace wishbone

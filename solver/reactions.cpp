@@ -1,0 +1,102 @@
+#include "solver/reactions.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "solver/closure_rank.h"
+#include "solver/closures.h"
+#include "solver/forward_dynamics.h"
+#include "solver/inverse_dynamics.h"
+
+namespace wishbone {
+namespace {
+
+/// Bodies whose inboard joints lie in loops and carry reactions.
+std::vector<int> joints_of_loops(const System& system) {
+  std::set<int> bodies;
+  for (const Closure& closure : system.closures)
+    for (const int i : closure.path)
+      if (system.bodies[i].nv < 6) bodies.insert(i);
+  return {bodies.begin(), bodies.end()};
+}
+
+std::vector<Vector3> joint_points(const System& system, const std::vector<int>& bodies, const Workspace& ws) {
+  std::vector<Vector3> points;
+  for (const int i : bodies) points.push_back(tree_joint_point(ws, i));
+  for (const Closure& closure : system.closures)
+    points.push_back(ws.markers[closure.markers.front()].p_WM);
+  return points;
+}
+
+double spread(const std::vector<Vector3>& points) {
+  const auto n = static_cast<double>(points.size());
+  Vector3 mean = Vector3::Zero();
+  for (const Vector3& p : points) mean += p / n;
+  double square = 0;
+  for (const Vector3& p : points) square += (p - mean).squaredNorm() / n;
+  return square > 0 ? std::sqrt(square) : 1.0;
+}
+
+/// All reactions of the loops' joints, moments divided by the length l.
+VectorX stack_reactions(const System& system, const std::vector<int>& bodies, const VectorX& lambda, double l,
+                        const Workspace& ws) {
+  VectorX all(6 * static_cast<Eigen::Index>(bodies.size() + system.closures.size()));
+  Eigen::Index start = 0;
+  const auto put = [&](const Vector6& F) {
+    all.segment<6>(start) << angular(F) / l, linear(F);
+    start += 6;
+  };
+  for (const int i : bodies) put(tree_joint_reaction(system, ws, i));
+  for (const Closure& closure : system.closures) put(closure_wrench(closure, 0, lambda, ws));
+  return all;
+}
+
+void scale_joint_forces(double factor, Workspace& ws) {
+  for (BodyMotion& s : ws.bodies) s.F_joint *= factor;
+}
+
+/// What multipliers alone leave in the tree joints: D^T n at rest.
+void set_joint_forces_of(const System& system, const VectorX& n, Workspace& ws) {
+  calc_closure_force<double>(system, n, ws, ws.hinge_force.data());
+  scale_joint_forces(-1, ws);  // the joint holds what the closures pull at
+}
+
+}  // namespace
+
+void calc_reactions(const System& system, Workspace& ws) {
+  calc_joint_forces(system, ws);
+  const MatrixX stresses = closure_self_stresses(system, ws);
+  if (stresses.cols() == 0) return;
+
+  const std::vector<int> bodies = joints_of_loops(system);
+  const double l = spread(joint_points(system, bodies, ws));
+  const VectorX found = stack_reactions(system, bodies, ws.lambda, l, ws);
+  std::vector<Vector6> F_joint;
+  for (const BodyMotion& s : ws.bodies) F_joint.push_back(s.F_joint);
+
+  MatrixX A(found.size(), stresses.cols());
+  for (Eigen::Index k = 0; k < stresses.cols(); ++k) {
+    set_joint_forces_of(system, stresses.col(k), ws);
+    A.col(k) = stack_reactions(system, bodies, stresses.col(k), l, ws);
+  }
+  // min |found + A c|
+  const VectorX c = -A.completeOrthogonalDecomposition().solve(found);
+  const VectorX n = stresses * c;
+  set_joint_forces_of(system, n, ws);
+  for (std::size_t i = 0; i < F_joint.size(); ++i) ws.bodies[i].F_joint += F_joint[i];
+  ws.lambda += n;
+}
+
+Vector3 tree_joint_point(const Evaluation<double>& ev, int i) {
+  return ev.bodies[i].X_WB.p - ev.bodies[i].p_MB;
+}
+
+Vector6 tree_joint_reaction(const System& system, const Evaluation<double>& ev, int i) {
+  const BodyMotion& s = ev.bodies[i];
+  const Vector6 on_child = shift_wrench<double>(s.F_joint, s.p_MB);
+  return system.bodies[i].first_is_child ? on_child : Vector6(-on_child);
+}
+
+}  // namespace wishbone

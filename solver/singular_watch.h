@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "solver/workspace.h"
+
+namespace wishbone {
+
+/// The mechanism went through a position where closure rows depend on each other.
+struct SingularPassage {
+  double t = 0;  ///< [s], estimated between two steps
+  int row = -1;  ///< the row that came closest to depending on the others
+};
+
+/// Finds singular positions that steps go over without touching: near one the least sine of the closure rows falls to zero
+/// linearly in time and rises again with the same slope, where it would turn smoothly if it only came close.
+class SingularWatch {
+ public:
+  /// After every accepted step.
+  void observe(double t, const ClosureFactor& closure);
+  const std::vector<SingularPassage>& passages() const { return passages_; }
+
+ private:
+  struct Sample {
+    double t = 0, sine = 1;
+  };
+  Sample before_, last_;
+  std::vector<SingularPassage> passages_;
+};
+
+}  // namespace wishbone
