@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/dual.h"
 #include "core/require.h"
 
 namespace wishbone {
@@ -13,13 +14,24 @@ AppliedLoad::AppliedLoad(std::string name, MarkerIndex marker, Wrench load, Load
           "give its components in N m");
 }
 
-void AppliedLoad::apply(const ForceInput& input, ForceOutput& output) const {
-  const MarkerState& M = input.markers[marker_];
-  Wrench load = load_;
-  if (axes_ == LoadAxes::kMarker) load = {M.R_WM * load_.t, M.R_WM * load_.f};
-  output.wrenches[marker_].t += load.t;
-  output.wrenches[marker_].f += load.f;
-  output.power = load.f.dot(M.v_WM) + load.t.dot(M.w_WM);
+std::vector<MarkerIndex> AppliedLoad::markers() const {
+  return {marker_};
 }
+
+template <class T>
+void AppliedLoad::apply(const ForceInputT<T>& input, ForceOutputT<T>& output) const {
+  const MarkerStateT<T>& M = input.markers[marker_];
+  Vector3T<T> f = load_.f.cast<T>(), t = load_.t.cast<T>();
+  if (axes_ == LoadAxes::kMarker) {
+    f = M.R_WM * load_.f;
+    t = M.R_WM * load_.t;
+  }
+  output.wrenches[marker_].t += t;
+  output.wrenches[marker_].f += f;
+  output.power = f.dot(M.v_WM) + t.dot(M.w_WM);
+}
+
+template void AppliedLoad::apply(const ForceInputT<double>&, ForceOutputT<double>&) const;
+template void AppliedLoad::apply(const ForceInputT<Dual>&, ForceOutputT<Dual>&) const;
 
 }  // namespace wishbone

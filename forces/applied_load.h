@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "forces/force_element.h"
 
@@ -21,7 +22,9 @@ class AppliedLoad {
 
   const std::string& name() const { return name_; }
   int state_count() const { return 0; }
-  void apply(const ForceInput& input, ForceOutput& output) const;
+  std::vector<MarkerIndex> markers() const;
+  template <class T>
+  void apply(const ForceInputT<T>& input, ForceOutputT<T>& output) const;
   double energy(const ForceInput&) const { return 0.0; }
 
  private:

@@ -3,15 +3,10 @@
 #include <array>
 #include <variant>
 
-#include "bodies/marker.h"
+#include <cstdlib>
+#include "joints/closure.h"
 
 namespace wishbone {
-
-/// Acceleration of a marker, world components.
-struct MarkerAcceleration {
-  Vector3 alpha = Vector3::Zero();  ///< angular [rad/s^2]
-  Vector3 a = Vector3::Zero();      ///< of Mo [m/s^2]
-};
 
 /// A cut joint closes a loop between a marker A and a marker B by rows Phi = 0. Its contract (a concept):
 ///
@@ -26,41 +21,47 @@ struct MarkerAcceleration {
 ///
 /// Rows are written in the axes of A: a direction that is redundant in one pose of the vehicle is then redundant in
 /// all of them.
-template <int rows>
-using ClosureVector = Eigen::Matrix<double, rows, 1>;
-template <int rows>
-using ClosureWrenches = Eigen::Matrix<double, 6, rows>;
-
-/// Mo of B stays on Mo of A: Phi = R_AW (p_WB - p_WA), 3 rows [m].
 struct SphericalClosure {
   static constexpr int kRows = 3;
   static constexpr int kAngles = 0;
   static constexpr std::array<const char*, 3> kDirections{"x", "y", "z"};
-
-  void residual(const MarkerState& A, const MarkerState& B, Eigen::Ref<ClosureVector<3>> Phi) const;
-  void wrenches(const MarkerState& A, const MarkerState& B, Eigen::Ref<ClosureWrenches<3>> W_A,
-                Eigen::Ref<ClosureWrenches<3>> W_B) const;
-  void acceleration(const MarkerState& A, const MarkerState& B, const MarkerAcceleration& a_A,
-                    const MarkerAcceleration& a_B, Eigen::Ref<ClosureVector<3>> Phi_dd) const;
+  int gauge_count() const { return 0; }
+  const Gauge& gauge(int) const { std::abort(); }
+  template <class T>
+  void residual(double, Sides<T> s, const double*, T* Phi_out) const;
+  template <class T>
+  void wrenches(Sides<T> s, T* W) const;
+  template <class T>
+  void time_rate(double, T* Phi_t) const {
+    for (int i = 0; i < kRows; ++i) Phi_t[i] = T(0);
+  }
+  template <class T>
+  void acceleration(double, Sides<T> s, MarkerAccelerations<T> a, T* Phi_dd_out) const;
 };
-
-/// As spherical, and the z axes of both markers stay parallel:
-/// Phi = (R_AW (p_WB - p_WA), z_A . x_B, z_A . y_B), 3 rows [m] and 2 rows [rad].
 struct RevoluteClosure {
   static constexpr int kRows = 5;
   static constexpr int kAngles = 2;
   static constexpr std::array<const char*, 5> kDirections{"x", "y", "z", "tilt about y", "tilt about x"};
-
-  void residual(const MarkerState& A, const MarkerState& B, Eigen::Ref<ClosureVector<5>> Phi) const;
-  void wrenches(const MarkerState& A, const MarkerState& B, Eigen::Ref<ClosureWrenches<5>> W_A,
-                Eigen::Ref<ClosureWrenches<5>> W_B) const;
-  void acceleration(const MarkerState& A, const MarkerState& B, const MarkerAcceleration& a_A,
-                    const MarkerAcceleration& a_B, Eigen::Ref<ClosureVector<5>> Phi_dd) const;
+  int gauge_count() const { return 0; }
+  const Gauge& gauge(int) const { std::abort(); }
+  template <class T>
+  void residual(double, Sides<T> s, const double*, T* Phi_out) const;
+  template <class T>
+  void wrenches(Sides<T> s, T* W) const;
+  template <class T>
+  void time_rate(double, T* Phi_t) const {
+    for (int i = 0; i < kRows; ++i) Phi_t[i] = T(0);
+  }
+  template <class T>
+  void acceleration(double, Sides<T> s, MarkerAccelerations<T> a, T* Phi_dd_out) const;
 };
-
 /// Every cut joint. A new one is one entry here.
 using CutJoint = std::variant<SphericalClosure, RevoluteClosure>;
 
+inline int gauge_count(const CutJoint& joint) {
+  return std::visit([](const auto& j) { return j.gauge_count(); }, joint);
+}
+inline bool is_driven(const CutJoint&) { return false; }
 inline int row_count(const CutJoint& joint) {
   return std::visit([](const auto& j) { return j.kRows; }, joint);
 }

@@ -27,6 +27,7 @@ class CvodeIntegrator final : public Integrator {
 
  private:
   static int rate(realtype t, N_Vector y, N_Vector y_rate, void* self);
+  static int projected_rate(realtype t, N_Vector y, N_Vector y_rate, void* self);
   static int jacobian(realtype t, N_Vector y, N_Vector y_rate, SUNMatrix J, void* self, N_Vector, N_Vector,
                       N_Vector);
   static int project(realtype t, N_Vector y, N_Vector correction, realtype eps, N_Vector err, void* self);
@@ -72,6 +73,21 @@ int CvodeIntegrator::rate(realtype t, N_Vector y, N_Vector y_rate, void* self) {
   return equations.guard([&] { equations.calc_rate(t, sundials::map(y), sundials::map(y_rate)); });
 }
 
+/// For methods that cannot project the state itself: the rate at the projected state. What is integrated then drifts off the
+/// closures by no more than its own errors.
+int CvodeIntegrator::projected_rate(realtype t, N_Vector y, N_Vector y_rate, void* self) {
+  auto* integrator = static_cast<CvodeIntegrator*>(self);
+  FirstOrderSystem& equations = *integrator->equations_;
+  bool closed = true;
+  const int flag = equations.guard([&] {
+    auto y_closed = sundials::map(integrator->scratch_);
+    y_closed = sundials::map(y);
+    closed = equations.project(t, kProjectionTolerance, y_closed);
+    if (closed) equations.calc_rate(t, y_closed, sundials::map(y_rate));
+  });
+  return flag != 0 ? flag : (closed ? 0 : 1);
+}
+
 int CvodeIntegrator::jacobian(realtype t, N_Vector y, N_Vector /*y_rate*/, SUNMatrix J, void* self, N_Vector,
                               N_Vector, N_Vector) {
   FirstOrderSystem& equations = *static_cast<CvodeIntegrator*>(self)->equations_;
@@ -107,7 +123,8 @@ void CvodeIntegrator::create(const State& state, const Work& work) {
   equations_->pack(state, work, sundials::map(y_));
   CVodeSetErrHandlerFn(
       cvode, [](int, const char*, const char*, char*, void*) {}, nullptr);  // flags tell the story
-  CVodeInit(cvode, rate, state.t, y_.get());
+  const bool projects = options_.form == Form::index1;
+  CVodeInit(cvode, adams && projects ? projected_rate : rate, state.t, y_.get());
   CVodeSVtolerances(cvode, equations_->tolerance_scale() * options_.rtol, tolerances_.get());
   CVodeSetUserData(cvode, this);
   CVodeSetMaxNumSteps(cvode, -1);  // counted by the caller
@@ -120,7 +137,7 @@ void CvodeIntegrator::create(const State& state, const Work& work) {
     linear_.reset(SUNLinSol_Dense(y_.get(), matrix_.get(), context_));
     CVodeSetLinearSolver(cvode, linear_.get(), matrix_.get());
     CVodeSetJacFn(cvode, jacobian);
-    if (options_.form == Form::index1) {
+    if (projects) {
       CVodeSetProjFn(cvode, project);
       CVodeSetProjErrEst(cvode, SUNFALSE);
     }

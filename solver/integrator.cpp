@@ -44,14 +44,11 @@ IntegratorOptions resolve(const IntegratorOptions& options, const System& system
   if (r.form == Form::ode && closed)
     throw InputError({"analysis.form",
                       "form ode integrates a mechanism without closures, but this one has cut joints",
-                      std::to_string(system.n_rows) + " closure rows", "use form index1 or ggl"});
+                      std::to_string(system.n_rows) + " closure rows", "use form index1, partition or ggl"});
   if (r.method == Method::automatic) r.method = r.form == Form::ggl ? Method::bdf : Method::erk;
   if (r.form == Form::ggl && r.method != Method::bdf)
     throw InputError({"analysis.integrator", "form ggl is integrated by IDA, a bdf method",
                       to_string(r.method), "use integrator bdf or auto with it"});
-  if (r.form == Form::index1 && r.method == Method::adams)
-    throw InputError({"analysis.integrator", "form index1 needs projection, which CVODE has for bdf only",
-                      "adams", "use integrator erk or bdf with form index1"});
   return r;
 }
 

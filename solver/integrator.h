@@ -20,7 +20,8 @@ enum class Form {
 
 enum class Method {
   automatic,
-  adams,  ///< CVODE Adams-Moulton, functional iteration; form ode only (CVODE projects with bdf alone)
+  adams,  ///< CVODE Adams-Moulton, functional iteration; index1: rates are taken at the projected state, since CVODE projects with
+          ///< bdf alone
   bdf,    ///< CVODE BDF, Newton; with form ggl: IDA
   erk,    ///< ARKODE explicit Runge-Kutta
 };

@@ -50,6 +50,9 @@ class SystemBuilder {
 
   /// Cut joint between the markers of its participants.
   void add_closure(std::string name, std::vector<MarkerIndex> markers, CutJoint joint);
+  void add_closure(std::string name, MarkerIndex A, MarkerIndex B, CutJoint joint) {
+    add_closure(std::move(name), std::vector<MarkerIndex>{A, B}, std::move(joint));
+  }
 
   /// Marker at p_W with axes R_WM in the design pose; on a node, at the node.
   MarkerIndex add_marker(Attachment on, const Vector3& p_W, const Matrix3& R_WM = Matrix3::Identity());

@@ -8,6 +8,7 @@
 #include "solver/events.h"
 #include "solver/forward_dynamics.h"
 #include "solver/kinematics.h"
+#include "solver/loads.h"
 
 namespace wishbone {
 namespace {

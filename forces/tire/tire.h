@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "forces/force_element.h"
 #include "forces/road/road.h"
@@ -54,6 +55,7 @@ class Tire {
   const UaTireParameters& parameters() const { return parameters_; }
   const Road& road() const { return road_; }
 
+  std::vector<MarkerIndex> markers() const { return {wheel_}; }
   int state_count() const { return lag_ ? 2 : 0; }
   template <class T>
   void apply(const ForceInputT<T>& input, ForceOutputT<T>& output) const;

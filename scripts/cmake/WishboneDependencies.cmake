@@ -8,6 +8,14 @@ if(NOT TARGET muparser::muparser)  # Debian 12 exports the target without a name
   add_library(muparser::muparser ALIAS muparser)
 endif()
 find_package(SUNDIALS 6.4 REQUIRED COMPONENTS cvode ida arkode)
+# The sparse direct solver by its own name: the target that SUNDIALS exports for it refers to one that nobody defines.
+find_path(KLU_INCLUDE_DIR klu.h PATH_SUFFIXES suitesparse REQUIRED)
+find_library(KLU_LIBRARY klu REQUIRED)
+find_library(SUNLINSOLKLU_LIBRARY sundials_sunlinsolklu REQUIRED)
+find_library(SUNMATRIXSPARSE_LIBRARY sundials_sunmatrixsparse REQUIRED)
+add_library(WishboneDeps::sundials_klu INTERFACE IMPORTED)
+target_include_directories(WishboneDeps::sundials_klu INTERFACE ${KLU_INCLUDE_DIR})
+target_link_libraries(WishboneDeps::sundials_klu INTERFACE ${SUNLINSOLKLU_LIBRARY} ${SUNMATRIXSPARSE_LIBRARY} ${KLU_LIBRARY})
 
 # The serial HDF5 by its own pkg-config name: the plain name turns into the MPI flavour as soon as PETSc
 # (which SUNDIALS pulls in) has been installed.

@@ -65,14 +65,10 @@ struct Motion {
         zdot(some_numbers(body.mode_count(), 2) * 100) {}
 };
 
-std::span<const double> span(const VectorX& x) {
-  return {x.data(), static_cast<std::size_t>(x.size())};
-}
-
 ModalBodyState state_of(const ModalBody& body, const Motion& motion) {
   ModalBodyState state = body.make_state();
-  body.set_position(span(motion.z), state);
-  body.set_velocity(motion.w_B, span(motion.zdot), state);
+  body.set_position(motion.z.data(), state);
+  body.set_velocity(motion.w_B, motion.zdot.data(), state);
   return state;
 }
 
@@ -157,7 +153,8 @@ TEST(ModalBody, HasQuadraticInertiaAndLinearCoupling) {
   EXPECT_EQ(state.S.norm(), 0);
 
   const auto at = [&](double factor) {
-    body.set_position(span(factor * z), state);
+    const VectorX scaled = factor * z;
+    body.set_position(scaled.data(), state);
     return std::pair(state.J, state.S);
   };
   const auto [J1, S1] = at(1);
@@ -224,8 +221,8 @@ TEST(ModalBody, DoesNotAllocateWhenEvaluated) {
     const Motion motion(body);
     ModalBodyState state = body.make_state();
     long before = allocation_count;
-    body.set_position(span(motion.z), state);
-    body.set_velocity(motion.w_B, span(motion.zdot), state);
+    body.set_position(motion.z.data(), state);
+    body.set_velocity(motion.w_B, motion.zdot.data(), state);
     EXPECT_EQ(allocation_count, before);
     const VectorX copy = motion.z;
     EXPECT_EQ(allocation_count, before + 1) << "the counter must count Eigen's allocations";
@@ -401,8 +398,8 @@ class FreeFlight {
 
  private:
   void evaluate(const VectorX& y) {
-    body_.set_position({y.data() + 13, std::size_t(m_)}, state_);
-    body_.set_velocity(y.segment<3>(10), {y.data() + 13 + m_, std::size_t(m_)}, state_);
+    body_.set_position(y.data() + 13, state_);
+    body_.set_velocity(Vector3(y.segment<3>(10)), y.data() + 13 + m_, state_);
   }
 
   VectorX rate(const VectorX& y) {

@@ -53,7 +53,7 @@ TEST(Assembly, ClosesFarFromTheOriginAsWellAsPositionsAreKnownThere) {
   Workspace ws(m.system);
   const AssemblyReport report = assemble(m.system, m.state, ws);
   EXPECT_LE(report.position_residual, 1e-8);  // a dozen roundings of 3e6 m
-  EXPECT_GE(project_positions(m.system, kProjectionTolerance, m.state, ws), 0);
+  EXPECT_TRUE(project(m.system, kProjectionTolerance, m.state, ws));
 }
 
 TEST(Assembly, RefusesALinkOfTheWrongLengthWithItsGap) {
@@ -115,7 +115,7 @@ TEST(Assembly, IsTheNearestPoseInTheMetricOfInertia) {
   State kicked = closed;
   kicked.v += testing::Random(1).numbers(m.system.nv, 1.0);
   State projected = kicked;
-  project_velocities(m.system, projected, ws);
+  project(m.system, kProjectionTolerance, projected, ws);
   const auto kinetic = [&](const VectorX& v) {
     State s = closed;
     s.v = v;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "solver/closures.h"
 #include "solver/forward_dynamics.h"
 #include "solver/mechanisms.h"
 
@@ -197,17 +198,17 @@ TEST(Reactions, OfATriangleOfRodsAreThoseOfStatics) {
   b.add_force(AppliedLoad("load", A, {Vector3::Zero(), {0, -F, 0}}));
   Built m = build(std::move(b));
   Workspace ws = assembled(m);
-  EXPECT_EQ(ws.kept, (std::vector<int>{0, 1}));
+  EXPECT_EQ(ws.closure.kept, (std::vector<int>{0, 1}));
   calc_forward_dynamics(m.system, m.state, ws);
   calc_joint_forces(m.system, ws);
   EXPECT_LT(ws.v_rate.norm(), 1e-12 * F);
 
   // on the first-named body: the right rod pushes the left one's tip from its foot
-  const Vector6 on_left = ws.W_A * ws.lambda;
+  const Vector6 on_left = closure_wrench<double>(m.system.closures[0], 0, ws.lambda, ws);
   const Vector3 push = F / (2 * cos_alpha) * (apex - right_foot) / length;
   EXPECT_LT((on_left.tail<3>() - push).norm(), 1e-12 * F);
   EXPECT_LT(on_left.head<3>().norm(), 1e-12 * F);
-  EXPECT_LT((ws.W_B * ws.lambda + on_left).norm(), 1e-12 * F);
+  EXPECT_LT((closure_wrench<double>(m.system.closures[0], 1, ws.lambda, ws) + on_left).norm(), 1e-12 * F);
   // the ground holds each rod along itself
   EXPECT_LT((ws.bodies[right].F_joint.tail<3>() - push).norm(), 1e-12 * F);
   EXPECT_LT((ws.bodies[left].F_joint.tail<3>() - Vector3(-push.x(), push.y(), 0)).norm(), 1e-12 * F);

@@ -54,7 +54,7 @@ MatrixX closure_jacobian(const System& system, const State& state) {
   MatrixX D(system.n_rows, system.nv);
   VectorX force(system.nv);
   for (int i = 0; i < system.n_rows; ++i) {
-    calc_closure_force(system, VectorX::Unit(system.n_rows, i), ws, force);
+    calc_closure_force<double>(system, VectorX::Unit(system.n_rows, i), ws, force.data());
     D.row(i) = force.transpose();
   }
   return D;

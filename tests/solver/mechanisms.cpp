@@ -4,6 +4,7 @@
 
 #include "solver/articulated_body.h"
 #include "solver/closure_dynamics.h"
+#include "solver/closure_rank.h"
 #include "solver/forward_dynamics.h"
 #include "solver/kinematics.h"
 
@@ -143,7 +144,7 @@ Vector6 momentum(const System& system, const State& state) {
   Vector6 total = Vector6::Zero();
   for (std::size_t i = 0; i < system.bodies.size(); ++i) {
     const TreeBody& body = system.bodies[i];
-    const BodyState& s = ws.bodies[i];
+    const BodyMotion& s = ws.bodies[i];
     const Vector3 w_B = s.X_WB.R.transpose() * angular(s.V);
     double mass = body.mass;
     Vector3 L_B = body.J_B * w_B;

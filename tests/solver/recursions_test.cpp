@@ -23,7 +23,8 @@ constexpr unsigned kSeeds = 20;
 VectorX residual(const Built& m, const VectorX& v_rate, const VectorX& lambda) {
   Workspace ws(m.system);
   VectorX r(m.system.nv);
-  calc_motion_residual(m.system, m.state, v_rate, lambda, ws, r);
+  update_state(m.system, m.state, ws);
+  calc_motion_residual<double>(m.system, v_rate, lambda, ws, r.data());
   return r;
 }
 
@@ -77,7 +78,7 @@ TEST(Recursions, WorkOfTheForcesIsTheRateOfTheEnergies) {
     Workspace ws(m.system);
     calc_forward_dynamics(m.system, m.state, ws);
     calc_joint_forces(m.system, ws);
-    const Work rate = calc_work_rate(m.system, m.state.t, ws);
+    const Work rate = calc_work_rate<double>(m.system, m.state.t, ws.lambda, ws);
     const VectorX v_rate = ws.v_rate;
     const auto energy = [&](double s) {
       const State state = moved(m, v_rate, s);
@@ -97,13 +98,14 @@ TEST(Recursions, VelocitiesAndAccelerationsAreDerivativesOfPoses) {
     Workspace ws(m.system), moved_ws(m.system);
     VectorX r(m.system.nv);
     const VectorX v_rate = testing::Random(seed).numbers(m.system.nv, 1);
-    calc_motion_residual(m.system, m.state, v_rate, VectorX::Zero(0), ws, r);
+    update_state(m.system, m.state, ws);
+    calc_motion_residual<double>(m.system, v_rate, VectorX::Zero(0), ws, r.data());
     const auto at = [&](double s) -> const Workspace& {
       update_state(m.system, moved(m, v_rate, s), moved_ws);
       return moved_ws;
     };
     for (std::size_t i = 0; i < m.system.bodies.size(); ++i) {
-      const BodyState& body = ws.bodies[i];
+      const BodyMotion& body = ws.bodies[i];
       const Vector3 v = derivative([&](double s) -> Vector3 { return at(s).bodies[i].X_WB.p; }, 1e-2);
       const Matrix3 R_rate = derivative([&](double s) -> Matrix3 { return at(s).bodies[i].X_WB.R; }, 1e-2);
       const Vector6 A = derivative([&](double s) -> Vector6 { return at(s).bodies[i].V; }, 1e-2);
@@ -124,7 +126,7 @@ TEST(Recursions, RetractionFollowsTheCoordinateRates) {
   for (unsigned seed = 1; seed <= kSeeds; ++seed) {
     const Built m = random_tree(seed);
     VectorX q_rate(m.system.nq);
-    calc_q_rate(m.system, m.state.q, m.state.v, q_rate);
+    calc_q_rate<double>(m.system, m.state.q, m.state.v, q_rate.data());
     const VectorX numeric = derivative([&](double s) { return moved(m, m.state.v, s).q; }, 1e-2);
     EXPECT_LT((q_rate - numeric).norm(), 1e-9 * (1 + q_rate.norm())) << "seed " << seed;
   }
