@@ -1,25 +1,26 @@
 #pragma once
 
-#include <Eigen/Geometry>
-
+#include "joints/additive_coordinates.h"
 #include "joints/joint_motion.h"
 
 namespace wishbone {
 
 /// Rotation by the angle q [rad] about an axis fixed in F and M; v = q' [rad/s].
-struct RevoluteJoint {
-  static constexpr int kNq = 1;
-  static constexpr int kNv = 1;
+struct RevoluteJoint : AdditiveCoordinates<1> {
+  static constexpr const char* kKind = "revolute";
+  static constexpr bool kHasDrift = false;
 
   Vector3 axis_F = Vector3::UnitZ();  ///< unit vector
 
-  void calc_across(double /*t*/, const double* q, AcrossJoint<kNv>& out) const {
-    out.X_FM.R = Eigen::AngleAxisd(q[0], axis_F).toRotationMatrix();
-    out.H.head<3>() = axis_F;
+  RevoluteJoint() = default;
+  explicit RevoluteJoint(const Vector3& axis) : axis_F(axis) {}
+
+  template <class T>
+  void calc_across(double /*t*/, const T* q, AcrossJoint<kNv, T>& out) const {
+    out.X_FM.R = rotation_about(axis_F, q[0]);
+    out.H.template head<3>() = axis_F.cast<T>();
   }
-  void calc_q_rate(const double*, const double* v, double* q_rate) const { q_rate[0] = v[0]; }
-  void retract(const double* d, double* q) const { q[0] += d[0]; }
-  void set_neutral(double* q) const { q[0] = 0; }
+  RevoluteJoint reversed() const { return RevoluteJoint(-axis_F); }
 };
 
 }  // namespace wishbone
