@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "core/dual.h"
 #include "core/require.h"
 
 namespace wishbone {
@@ -24,16 +25,17 @@ SpringDamper::SpringDamper(std::string name, MarkerIndex P, MarkerIndex Q, doubl
           "give it in m, positive");
 }
 
-SpringDamper::Line SpringDamper::line(const ForceInput& input) const {
-  const MarkerState& P = input.markers[P_];
-  const MarkerState& Q = input.markers[Q_];
-  const Vector3 p_PQ = Q.p_WM - P.p_WM;
-  Line s;
+template <class T>
+SpringDamper::Line<T> SpringDamper::line(const ForceInputT<T>& input) const {
+  const MarkerStateT<T>& P = input.markers[P_];
+  const MarkerStateT<T>& Q = input.markers[Q_];
+  const Vector3T<T> p_PQ = Q.p_WM - P.p_WM;
+  Line<T> s;
   s.length = p_PQ.norm();
   if (!(s.length > 0)) {
     throw NumericsError({fmt::format("{} at t = {} s", name_, input.time),
                          "the ends of the spring must not coincide: length [m]",
-                         fmt::format("{:g}", s.length),
+                         fmt::format("{:g}", value_of(s.length)),
                          "move one of its points, or model the connection by a joint"});
   }
   s.u = p_PQ / s.length;
@@ -42,8 +44,13 @@ SpringDamper::Line SpringDamper::line(const ForceInput& input) const {
   return s;
 }
 
-void SpringDamper::apply(const ForceInput& input, ForceOutput& output) const {
-  const Line s = line(input);
+std::vector<MarkerIndex> SpringDamper::markers() const {
+  return {P_, Q_};
+}
+
+template <class T>
+void SpringDamper::apply(const ForceInputT<T>& input, ForceOutputT<T>& output) const {
+  const Line<T> s = line(input);
   output.wrenches[P_].f += s.force * s.u;
   output.wrenches[Q_].f -= s.force * s.u;
   output.power = -s.force * s.rate;
@@ -55,8 +62,11 @@ double SpringDamper::energy(const ForceInput& input) const {
 }
 
 SpringDamperOutput SpringDamper::output(const ForceInput& input) const {
-  const Line s = line(input);
+  const Line<double> s = line(input);
   return {s.length, s.rate, s.force};
 }
+
+template void SpringDamper::apply(const ForceInputT<double>&, ForceOutputT<double>&) const;
+template void SpringDamper::apply(const ForceInputT<Dual>&, ForceOutputT<Dual>&) const;
 
 }  // namespace wishbone

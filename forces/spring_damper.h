@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "forces/force_element.h"
 
@@ -34,18 +35,22 @@ class SpringDamper {
   void set_free_length(double free_length) { free_length_ = free_length; }
 
   int state_count() const { return 0; }
-  void apply(const ForceInput& input, ForceOutput& output) const;
+  std::vector<MarkerIndex> markers() const;
+  template <class T>
+  void apply(const ForceInputT<T>& input, ForceOutputT<T>& output) const;
   double energy(const ForceInput& input) const;
   SpringDamperOutput output(const ForceInput& input) const;
 
  private:
+  template <class T>
   struct Line {
-    double length;  // l
-    double rate;    // l'
-    double force;   // f
-    Vector3 u;
+    T length;  // l
+    T rate;    // l'
+    T force;   // f
+    Vector3T<T> u;
   };
-  Line line(const ForceInput& input) const;
+  template <class T>
+  Line<T> line(const ForceInputT<T>& input) const;
 
   std::string name_;
   MarkerIndex P_, Q_;
