@@ -6,9 +6,11 @@ namespace wishbone {
 
 /// Frame M rigidly on frame F: no coordinate.
 struct FixedJoint {
+  static constexpr const char* kKind = "fixed";
   static constexpr int kNq = 0;
   static constexpr bool kHasDrift = false;
   static constexpr int kNv = 0;
+  static constexpr bool kHasDrift = false;
 
   template <class T>
   void calc_across(double /*t*/, const T* /*q*/, AcrossJoint<kNv, T>& /*out*/) const {}
@@ -17,6 +19,7 @@ struct FixedJoint {
   void retract(const double*, double*) const {}
   void calc_displacement(const double*, const double*, double*) const {}
   void set_neutral(double*) const {}
+  FixedJoint reversed() const { return {}; }
 };
 
 }  // namespace wishbone

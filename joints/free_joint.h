@@ -8,15 +8,14 @@ namespace wishbone {
 /// The translation speeds have F components, so that the flight of a spinning body does not look like a vibration
 /// to the integrator.
 struct FreeJoint {
+  static constexpr const char* kKind = "free";
   static constexpr int kNq = 7;
-  static constexpr bool kHasDrift = false;
   static constexpr int kNv = 6;
+  static constexpr bool kHasDrift = false;
 
   template <class T>
-  void calc_across(double t, const T* q, AcrossJoint<kNv, T>& out) const {
-    AcrossJoint<3, T> rotation;
-    SphericalJoint{}.calc_across(t, q, rotation);
-    out.X_FM.R = rotation.X_FM.R;
+  void calc_across(double /*t*/, const T* q, AcrossJoint<kNv, T>& out) const {
+    out.X_FM.R = rotation_from_quaternion(q);
     out.X_FM.p = Eigen::Map<const Vector3T<T>>(q + 4);
     out.H.template topLeftCorner<3, 3>() = out.X_FM.R;
     out.H.template bottomRightCorner<3, 3>().setIdentity();

@@ -16,6 +16,7 @@ struct AcrossJoint {
 
 /// The contract of a tree joint (a concept; the recursions visit concrete types). T is the scalar, double or Dual:
 ///
+///     static constexpr const char* kKind;                       "revolute", ...
 ///     static constexpr int kNq, kNv;                            numbers of coordinates and speeds
 ///     static constexpr bool kHasDrift;                          whether calc_drift gives anything but zero
 ///     void calc_across(double t, const T* q, AcrossJoint<kNv, T>&) const;
@@ -25,5 +26,9 @@ struct AcrossJoint {
 ///                                                               first order q + N(q) d, staying on the manifold
 ///     void calc_displacement(const double* q0, const double* q, double* d) const;  the inverse: q = q0 retracted by d
 ///     void set_neutral(double* q) const;                        the coordinates of X_FM = identity
+///     Joint reversed() const;                                   optional: the inverse motion in the same coordinates, where
+///                                                               that is the same type (else joints/reversed_joint.h)
+///
+/// calc_across writes what differs from the default AcrossJoint that it is given; calc_drift sets both arguments.
 
 }  // namespace wishbone

@@ -1,29 +1,26 @@
 #pragma once
 
-#include <Eigen/Geometry>
-
+#include "joints/additive_coordinates.h"
 #include "joints/joint_motion.h"
 
 namespace wishbone {
 
 /// Rotation by the angle q [rad] about an axis fixed in F and M; v = q' [rad/s].
-struct RevoluteJoint {
-  static constexpr int kNq = 1;
+struct RevoluteJoint : AdditiveCoordinates<1> {
+  static constexpr const char* kKind = "revolute";
   static constexpr bool kHasDrift = false;
-  static constexpr int kNv = 1;
 
   Vector3 axis_F = Vector3::UnitZ();  ///< unit vector
+
+  RevoluteJoint() = default;
+  explicit RevoluteJoint(const Vector3& axis) : axis_F(axis) {}
 
   template <class T>
   void calc_across(double /*t*/, const T* q, AcrossJoint<kNv, T>& out) const {
     out.X_FM.R = rotation_about(axis_F, q[0]);
     out.H.template head<3>() = axis_F.cast<T>();
   }
-  template <class T>
-  void calc_q_rate(const T*, const T* v, T* q_rate) const { q_rate[0] = v[0]; }
-  void retract(const double* d, double* q) const { q[0] += d[0]; }
-  void calc_displacement(const double* q0, const double* q, double* d) const { d[0] = q[0] - q0[0]; }
-  void set_neutral(double* q) const { q[0] = 0; }
+  RevoluteJoint reversed() const { return RevoluteJoint(-axis_F); }
 };
 
 }  // namespace wishbone

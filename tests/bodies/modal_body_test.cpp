@@ -377,7 +377,7 @@ class FreeFlight {
   /// Summed over the nodes in inertial coordinates.
   Balance balance() const {
     const ModeSet& set = body_.modes();
-    const Matrix3 R = rotation_from_quaternion(y_.segment<4>(6));
+    const Matrix3 R = rotation_from_quaternion(y_.data() + 6);
     const Matrix3X b =
         set.node_position + Matrix3X((set.shapes * y_.segment(13, m_)).reshaped(3, set.node_count()));
     const Matrix3X delta_dot = (set.shapes * y_.segment(13 + m_, m_)).reshaped(3, set.node_count());
@@ -406,7 +406,7 @@ class FreeFlight {
     evaluate(y);
     const Accelerations a(body_, state_, Vector3::Zero(), Vector3::Zero(), VectorX::Zero(m_));
     VectorX rate(y.size());
-    rate << y.segment<3>(3), a.a, quaternion_rate(y.segment<4>(6), y.segment<3>(10)), a.alpha,
+    rate << y.segment<3>(3), a.a, quaternion_rate<double>(y.data() + 6, y.segment<3>(10)), a.alpha,
         y.segment(13 + m_, m_), a.zddot, body_.damping_power(state_);
     return rate;
   }
