@@ -162,7 +162,7 @@ std::vector<std::pair<std::string, Value>> Value::named() const {
   return values;
 }
 
-Mapping::Mapping(const Value& value, std::initializer_list<std::string_view> keys)
+Mapping::Mapping(const Value& value, const std::vector<std::string_view>& keys)
     : value_(value), keys_(keys.begin(), keys.end()) {
   if (!value.is_mapping()) {
     value.refuse("a mapping is wanted here", fmt::format("write its keys: {}", fmt::join(keys_, ", ")));

@@ -75,7 +75,9 @@ class Value {
 /// A mapping with a fixed set of keys. Unknown keys are refused on construction, with "did you mean".
 class Mapping {
  public:
-  Mapping(const Value& value, std::initializer_list<std::string_view> keys);
+  Mapping(const Value& value, std::initializer_list<std::string_view> keys)
+      : Mapping(value, std::vector<std::string_view>(keys)) {}
+  Mapping(const Value& value, const std::vector<std::string_view>& keys);
 
   const Source& where() const { return value_.where(); }
   /// The value of a key; throws InputError when it is missing.

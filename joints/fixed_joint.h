@@ -8,7 +8,6 @@ namespace wishbone {
 struct FixedJoint {
   static constexpr const char* kKind = "fixed";
   static constexpr int kNq = 0;
-  static constexpr bool kHasDrift = false;
   static constexpr int kNv = 0;
   static constexpr bool kHasDrift = false;
 

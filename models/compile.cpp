@@ -8,6 +8,7 @@
 #include "identification/elements/hexahedral_mesh.h"
 #include "identification/free_free_modes.h"
 #include "identification/mode_set_of.h"
+#include "models/compile_joints.h"
 #include "solver/system_builder.h"
 
 namespace wishbone {
@@ -37,11 +38,12 @@ void set_damping(const Scene::Body& body, ModeSet& modes) {
 /// One scene on its way into a SystemBuilder.
 class Compiler {
  public:
-  explicit Compiler(const Scene& scene) : scene_(scene) { builder_.gravity = scene.gravity; }
+  explicit Compiler(const Scene& scene) : scene_(scene), joints_(scene, builder_) { builder_.gravity = scene.gravity; }
 
   CompiledScene compile() && {
     for (const Scene::Body& body : scene_.bodies) add_body(body);
-    for (const Scene::Joint& joint : scene_.joints) joint.cut ? add_closure(joint) : add_tree_joint(joint);
+    joints_.add_joints();
+    joints_.add_closures();
     for (const Scene::Spring& spring : scene_.springs)
       builder_.add_force(SpringDamper(spring.name, marker(spring.from), marker(spring.to), spring.stiffness,
                                       spring.damping, spring.free_length));
@@ -91,62 +93,6 @@ class Compiler {
     return builder_.add_marker(attachment(point), world_point(point.p_DP));
   }
 
-  Vector3 axis_in(int body, const Vector3& axis_D) const {
-    return scene_.bodies[body].X_DB.R.transpose() * axis_D;
-  }
-
-  TreeJoint tree_joint(const Scene::Joint& joint) const {
-    switch (joint.type) {
-      case Scene::JointType::kFixed:
-        return FixedJoint{};
-      case Scene::JointType::kSpherical:
-        return SphericalJoint{};
-      case Scene::JointType::kFree:
-        return FreeJoint{};
-      case Scene::JointType::kRevolute:
-      case Scene::JointType::kPrismatic:
-        break;
-    }
-    const Vector3 axis = axis_in(joint.child.body, joint.axis_D);
-    const bool turns = joint.type == Scene::JointType::kRevolute;
-    if (joint.motion >= 0)
-      return PrescribedJoint{turns ? PrescribedJoint::Kind::revolute : PrescribedJoint::Kind::prismatic, axis,
-                             motion(scene_.motions[joint.motion])};
-    if (turns) return RevoluteJoint{axis};
-    return PrismaticJoint{axis};
-  }
-
-  static Motion motion(const Scene::Motion& motion) {
-    std::vector<MotionStep> steps;
-    for (const Scene::MotionStep& s : motion.steps) steps.push_back({s.time, s.duration, s.change});
-    std::optional<Ackermann> ackermann;
-    if (motion.ackermann)
-      ackermann = Ackermann{
-          motion.ackermann->wheelbase, motion.ackermann->track,
-          motion.ackermann->side == Scene::Side::kLeft ? Ackermann::Side::kLeft : Ackermann::Side::kRight};
-    return {"motion '" + motion.name + "'", motion.start, std::move(steps), ackermann};
-  }
-
-  void add_tree_joint(const Scene::Joint& joint) {
-    builder_.add_joint(joint.name, attachment(joint.parent), joint.child.body, world_point(joint.parent.p_DP),
-                       tree_joint(joint), joint.position, joint.speed);
-  }
-
-  void add_closure(const Scene::Joint& joint) {
-    Matrix3 R_DM =
-        joint.parent.body == Scene::kGround ? Matrix3::Identity() : scene_.bodies[joint.parent.body].X_DB.R;
-    CutJoint cut = SphericalClosure{};
-    if (joint.type == Scene::JointType::kRevolute) {
-      const auto [x, y] = perpendiculars(joint.axis_D);
-      R_DM << x, y, joint.axis_D;
-      cut = RevoluteClosure{};
-    }
-    const Matrix3 R_WM = scene_.X_WD.R * R_DM;
-    const MarkerIndex A = builder_.add_marker(attachment(joint.parent), world_point(joint.parent.p_DP), R_WM);
-    const MarkerIndex B = builder_.add_marker(attachment(joint.child), world_point(joint.child.p_DP), R_WM);
-    builder_.add_closure(joint.name, A, B, cut);
-  }
-
   void add_tire(const Scene::Tire& tire) {
     const Scene::TireModel& model = scene_.tire_models[tire.model];
     std::vector<RoadDepression> depressions;
@@ -181,7 +127,8 @@ class Compiler {
     options.chassis = builder_.built_index(scene_.vehicle->chassis);
     for (const Scene::SteeringAngle& steering : scene_.vehicle->steering)
       options.steering.push_back(
-          {steering.name, builder_.built_index(scene_.joints[steering.joint].child.body)});
+          {steering.name, builder_.built_index(joints_.carried_body(steering.joint)),
+           scene_.joints[steering.joint].R_DJ(2, 2) < 0 ? -1.0 : 1.0});
     return options;
   }
 
@@ -199,6 +146,9 @@ class Compiler {
         break;
       case Scene::Form::kIndex1:
         options.integrator.form = Form::index1;
+        break;
+      case Scene::Form::kPartition:
+        options.integrator.form = Form::partition;
         break;
       case Scene::Form::kGgl:
         options.integrator.form = Form::ggl;
@@ -227,6 +177,7 @@ class Compiler {
 
   const Scene& scene_;
   SystemBuilder builder_;
+  JointCompiler joints_;
   std::vector<IdentifiedBody> identified_;
 };
 

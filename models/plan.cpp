@@ -9,19 +9,10 @@
 namespace wishbone {
 namespace {
 
-struct JointName {
-  const char* operator()(const FixedJoint&) const { return "fixed"; }
-  const char* operator()(const RevoluteJoint&) const { return "revolute"; }
-  const char* operator()(const PrismaticJoint&) const { return "prismatic"; }
-  const char* operator()(const SphericalJoint&) const { return "spherical"; }
-  const char* operator()(const FreeJoint&) const { return "free"; }
-  const char* operator()(const PrescribedJoint&) const { return "prescribed"; }
-};
-
 std::string tree_line(const System& system, const TreeBody& body) {
   const std::string parent = body.parent < 0 ? "ground" : system.bodies[body.parent].name;
   std::string line =
-      fmt::format("{}: {} on {}{}, {} freedom{}", body.name, std::visit(JointName{}, body.joint), parent,
+      fmt::format("{}: {} on {}{}, {} freedom{}", body.name, joint_kind(body.joint), parent,
                   body.parent_node >= 0 ? " (a node)" : "", body.nv, body.nv == 1 ? "" : "s");
   if (body.flexible >= 0)
     line += fmt::format(", {} elastic modes", system.flexible[body.flexible].modal.mode_count());
@@ -33,7 +24,7 @@ void sort_into(bool needed, std::string kept, std::string left_out, Plan& plan) 
 }
 
 void list_parts(const System& system, Plan& plan) {
-  const auto& [springs, tires, loads] = system.forces;
+  const auto& [springs, tires, loads, joint_springs, joint_frictions, joint_limits] = system.forces;
   sort_into(plan.elastic_coordinates > 0, fmt::format("elastic terms of {} modes", plan.elastic_coordinates),
             "elastic terms: no flexible body", plan);
   bool damped = false;

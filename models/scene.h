@@ -7,6 +7,7 @@
 
 #include "core/source.h"
 #include "core/spatial.h"
+#include "joints/joint_kind.h"
 
 namespace wishbone {
 
@@ -58,19 +59,65 @@ struct Scene {
     Source where;
   };
 
-  enum class JointType { kFixed, kRevolute, kPrismatic, kSpherical, kFree };
-  /// Joins `parent` (first-named) and `child`. A tree joint carries the child, a cut joint closes a loop. At
-  /// zero joint coordinate the bodies are in their design poses; positive turns or slides the child along the
-  /// axis.
+  /// Force laws on one coordinate of a joint [rad or m].
+  struct CoordinateSpring {
+    int coordinate = 0;
+    double stiffness = 0, damping = 0;  ///< [N m/rad, N m s/rad] or [N/m, N s/m]
+    double free = 0;                    ///< where it is relaxed
+  };
+  struct CoordinateFriction {
+    int coordinate = 0;
+    double coulomb = 0, viscous = 0;  ///< [N m, N m s/rad] or [N, N s/m]
+    double smoothing = 0;             ///< rate at which dry friction has reached tanh 1 of its value
+    std::optional<double> peak;       ///< friction at rest, at least `coulomb`
+    double peak_rate = 0;             ///< rate over which the peak falls off
+  };
+  struct CoordinateLimit {
+    int coordinate = 0;
+    std::optional<double> lower, upper;
+    double stiffness = 0;  ///< [N m/rad^n] or [N/m^n]
+    double exponent = 1.5;
+    double damping = 0;  ///< [s/rad] or [s/m]
+  };
+
+  /// Joins a first-named and a second-named body. It carries one of them or closes a loop. At zero coordinates the bodies
+  /// are in their design poses; positive ones turn or slide the second along the axes.
   struct Joint {
     std::string name;
-    JointType type = JointType::kFixed;
-    bool cut = false;
-    Point parent, child;               ///< coincident in the design pose
-    Vector3 axis_D = Vector3::Zero();  ///< unit axis of revolute and prismatic joints, in D
-    double position = 0;               ///< initial joint coordinate [rad] or [m]
-    double speed = 0;                  ///< initial joint speed [rad/s] or [m/s]
-    int motion = -1;                   ///< index into `motions` that prescribes the coordinate; -1: none
+    JointKind kind = JointKind::fixed;
+    std::optional<bool> cut;  ///< whether it closes a loop; empty: the program chooses
+    Point first, second;      ///< coincident in the design pose
+    Matrix3 R_DJ = Matrix3::Identity();  ///< axes of the joint (joints/joint_kind.h); identity where it has none
+    double pitch = 0;                    ///< of a screw [m/rad]
+    std::vector<double> position, speed;  ///< initial coordinates and speeds; empty: zero
+    std::vector<int> motion;              ///< of each coordinate, index into `motions` or -1; empty: none
+    double weight = 1;  ///< factor on its share of the metric in which the initial pose is assembled
+    std::vector<CoordinateSpring> springs;
+    std::vector<CoordinateFriction> frictions;
+    std::vector<CoordinateLimit> limits;
+    Source where;
+  };
+
+  /// A coordinate of a joint, as couplings and signals refer to it.
+  struct JointCoordinate {
+    int joint = -1;
+    int coordinate = 0;
+  };
+  enum class ClosureType { kDistance, kPointOnLine, kPointOnPlane, kCoupling };
+  /// What binds bodies but carries none.
+  struct Closure {
+    std::string name;
+    ClosureType type = ClosureType::kDistance;
+    Point from, to;
+    Vector3 direction_D = Vector3::UnitZ();  ///< of the line, normal of the plane; fixed to `from`
+    std::optional<double> length;            ///< of a distance [m]; empty: as in the design pose
+    int motion = -1;                         ///< that a distance follows, index into `motions`
+    struct Term {
+      JointCoordinate of;
+      double factor = 1;
+    };
+    std::vector<Term> terms;  ///< of a coupling: sum factor u = constant
+    double constant = 0;
     Source where;
   };
 
@@ -168,7 +215,7 @@ struct Scene {
     Source where;
   };
 
-  enum class Form { kAuto, kOde, kIndex1, kGgl };
+  enum class Form { kAuto, kOde, kIndex1, kPartition, kGgl };
   enum class Integrator { kAuto, kAdams, kBdf, kErk };
   struct Analysis {
     double duration = 1;  ///< [s]
@@ -198,6 +245,7 @@ struct Scene {
   Pose X_WD;                     ///< placement of the design frame
   std::vector<Body> bodies;
   std::vector<Joint> joints;
+  std::vector<Closure> closures;
   std::vector<Spring> springs;
   std::vector<Load> loads;
   std::vector<TireModel> tire_models;

@@ -16,7 +16,7 @@ void read_vehicle(const Value& section, Scene& scene) {
     for (const auto& [name, value] : steering->named()) {
       const int joint = index_of(scene.joints, value, "the joints");
       const Scene::Joint& steered = scene.joints[static_cast<std::size_t>(joint)];
-      if (steered.cut || steered.type != Scene::JointType::kRevolute) {
+      if (steered.cut == true || steered.kind != JointKind::revolute) {
         value.refuse("a steering angle is the coordinate of a revolute tree joint", "name such a joint");
       }
       vehicle.steering.push_back({name, joint});
@@ -35,6 +35,7 @@ void read_analysis(const Value& section, Scene& scene) {
     analysis.form = form->choice<Scene::Form>({{"auto", Scene::Form::kAuto},
                                                {"ode", Scene::Form::kOde},
                                                {"index1", Scene::Form::kIndex1},
+                                               {"partition", Scene::Form::kPartition},
                                                {"ggl", Scene::Form::kGgl}},
                                               "the integration forms");
   }

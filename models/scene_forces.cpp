@@ -7,27 +7,13 @@
 namespace wishbone::scene_sections {
 namespace {
 
-/// {ground: [x, y, z]}, {body}, {body, at} or {body, node}.
-Scene::Point read_spring_end(const Scene& scene, const Value& value) {
-  const Mapping keys(value, {"ground", "body", "at", "node"});
-  if (const auto ground = keys.optional("ground")) {
-    if (keys.has("body") || keys.has("at") || keys.has("node")) {
-      value.refuse("a point is on the ground or on a body",
-                   "write {ground: [x, y, z]} or {body: ..., at: [x, y, z]}");
-    }
-    return {Scene::kGround, 0, ground->vector3(kLength)};
-  }
-  const int body = read_body(scene, keys.required("body"));
-  return read_point(scene, body, keys.optional("at"), keys.optional("node"), value);
-}
-
 Scene::Spring read_spring(const std::string& name, const Value& value, const Scene& scene) {
   const Mapping keys(value, {"from", "to", "stiffness", "damping", "free_length"});
   Scene::Spring spring;
   spring.name = name;
   spring.where = value.where();
-  spring.from = read_spring_end(scene, keys.required("from"));
-  spring.to = read_spring_end(scene, keys.required("to"));
+  spring.from = read_end(scene, keys.required("from"));
+  spring.to = read_end(scene, keys.required("to"));
   if (spring.from.body == spring.to.body) keys.refuse("the spring joins a body to itself", "name two bodies");
   spring.stiffness = keys.required("stiffness").non_negative(kStiffness);
   if (const auto damping = keys.optional("damping")) spring.damping = damping->non_negative(kDamping);
@@ -109,6 +95,19 @@ Scene::Point read_point(const Scene& scene, int body, const std::optional<Value>
                  "name one with 'node'");
   }
   return {body, 0, at ? at->vector3(kLength) : holder.X_DB.p};
+}
+
+Scene::Point read_end(const Scene& scene, const Value& value) {
+  const Mapping keys(value, {"ground", "body", "at", "node"});
+  if (const auto ground = keys.optional("ground")) {
+    if (keys.has("body") || keys.has("at") || keys.has("node")) {
+      value.refuse("a point is on the ground or on a body",
+                   "write {ground: [x, y, z]} or {body: ..., at: [x, y, z]}");
+    }
+    return {Scene::kGround, 0, ground->vector3(kLength)};
+  }
+  const int body = read_body(scene, keys.required("body"));
+  return read_point(scene, body, keys.optional("at"), keys.optional("node"), value);
 }
 
 void read_springs(const Value& section, Scene& scene) {

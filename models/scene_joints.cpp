@@ -1,20 +1,15 @@
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cmath>
 
 #include "models/scene_sections.h"
+#include "models/scene_tree.h"
 
 namespace wishbone::scene_sections {
 namespace {
 
-using JointType = Scene::JointType;
-
 /// Two points that a joint holds together must coincide this well in the design pose [m].
 constexpr double kCoincidence = 1e-6;
-
-bool has_coordinate(JointType type) {
-  return type == JointType::kRevolute || type == JointType::kPrismatic;
-}
 
 /// One of the two `bodies` of a joint: `ground`, a body, or {body, node}.
 struct Side {
@@ -48,8 +43,8 @@ std::pair<Side, Side> read_sides(const Scene& scene, const Value& value) {
 }
 
 /// A flexible body is held at a node, by a joint that leaves the node free to turn; or floats as a whole.
-void check_hold(const Scene& scene, const Side& side, JointType type) {
-  if (type == JointType::kFree) {
+void check_hold(const Scene& scene, const Side& side, JointKind kind) {
+  if (kind == JointKind::free) {
     if (side.point.node != 0)
       side.value.refuse("a free joint joins whole bodies", "name the body without a node");
     return;
@@ -61,21 +56,21 @@ void check_hold(const Scene& scene, const Side& side, JointType type) {
     side.value.refuse(fmt::format("the flexible body '{}' can be held at its nodes only", body.name),
                       fmt::format("write {{body: {}, node: ...}}", body.name));
   }
-  if (type != JointType::kSpherical) {
+  if (kind != JointKind::spherical) {
     side.value.refuse("a node of a flexible body can only be held by a spherical joint",
                       "use 'type: spherical'");
   }
 }
 
 /// Gives both points their common position: `at`, that of the node, or both when they agree.
-void place(const Mapping& keys, Side& parent, Side& child) {
+void place(const Mapping& keys, Side& first, Side& second) {
   const auto at = keys.optional("at");
   const auto disagrees = [](const Vector3& a, const Vector3& b) { return !((a - b).norm() <= kCoincidence); };
-  if (!at && parent.point.node == 0 && child.point.node == 0) keys.required("at");  // which is missing
+  if (!at && first.point.node == 0 && second.point.node == 0) keys.required("at");  // which is missing
   const Vector3 p_DP = at                       ? at->vector3(kLength)
-                       : parent.point.node != 0 ? parent.point.p_DP
-                                                : child.point.p_DP;
-  for (Side* side : {&parent, &child}) {
+                       : first.point.node != 0 ? first.point.p_DP
+                                                : second.point.p_DP;
+  for (Side* side : {&first, &second}) {
     if (side->point.node == 0) {
       side->point.p_DP = p_DP;
     } else if (disagrees(side->point.p_DP, p_DP)) {
@@ -95,109 +90,211 @@ void refuse_keys(const Mapping& keys, std::initializer_list<std::string_view> na
   }
 }
 
-void read_coordinate(const Mapping& keys, const std::vector<std::string>& motion_names, Scene::Joint& joint) {
-  if (!has_coordinate(joint.type)) {
-    refuse_keys(keys, {"axis", "position", "speed", "motion"},
-                "only revolute and prismatic joints have this key");
-    return;
-  }
-  joint.axis_D = keys.required("axis").direction();
-  if (joint.cut)
-    refuse_keys(keys, {"position", "speed", "motion"}, "a cut joint has no coordinate of its own");
-  if (const auto motion = keys.optional("motion")) {
+std::vector<std::string_view> coordinate_names(const JointKindInfo& kind) {
+  std::vector<std::string_view> names;
+  for (const JointCoordinateKind& coordinate : kind.coordinates) names.push_back(coordinate.name);
+  return names;
+}
+
+/// Values of the coordinates of a joint: a scalar where it has one, else a mapping by name.
+template <class Read>
+void for_each_coordinate(const Value& value, const JointKindInfo& kind, Read read) {
+  if (kind.coordinates.size() == 1) return read(0, value);
+  const Mapping keys(value, coordinate_names(kind));
+  for (std::size_t i = 0; i < kind.coordinates.size(); ++i)
+    if (const auto own = keys.optional(kind.coordinates[i].name)) read(static_cast<int>(i), *own);
+}
+
+void refuse_without_coordinates(const Mapping& keys, const JointKindInfo& kind) {
+  if (!kind.coordinates.empty()) return;
+  refuse_keys(keys, {"position", "speed", "motion", "spring", "friction", "limits"},
+              fmt::format("a {} joint has no coordinate of this kind", kind.name));
+}
+
+void read_initial_motion(const Mapping& keys, const JointKindInfo& kind, Scene::Joint& joint) {
+  const auto read = [&](std::string_view key, std::vector<double>& values, bool rate) {
+    const auto value = keys.optional(key);
+    if (!value) return;
+    values.assign(kind.coordinates.size(), 0.0);
+    for_each_coordinate(*value, kind, [&](int i, const Value& v) {
+      const bool angle = kind.coordinates[i].is_angle;
+      values[i] = v.number(rate ? (angle ? kAngularVelocity : kVelocity) : (angle ? kAngle : kLength));
+    });
+  };
+  read("position", joint.position, false);
+  read("speed", joint.speed, true);
+  if (const auto weight = keys.optional("assembly_weight")) joint.weight = weight->positive(kRatio);
+}
+
+void read_motion(const Mapping& keys, const JointKindInfo& kind, const std::vector<std::string>& motion_names,
+                 Scene::Joint& joint) {
+  const auto motion = keys.optional("motion");
+  if (!motion) return;
+  joint.motion.assign(kind.coordinates.size(), -1);
+  for_each_coordinate(*motion, kind, [&](int i, const Value& name) {
+    if (!kind.coordinates[i].measurable)
+      name.refuse("this coordinate cannot be driven", "drive a body on another joint");
+    joint.motion[i] = index_of(motion_names, name, "the motions");
+  });
+  if (kind.coordinates.size() == 1)
     refuse_keys(keys, {"position", "speed"}, "the motion prescribes the coordinate");
-    joint.motion = index_of(motion_names, *motion, "the motions");
-    return;
+}
+
+struct CoordinateDimensions {
+  const Dimension &value, &rate, &force, &stiffness, &damping;
+};
+CoordinateDimensions dimensions_of(const JointCoordinateKind& coordinate, const Value& value) {
+  if (!coordinate.measurable)
+    value.refuse("no force can act along this coordinate", "use a force between points of the bodies");
+  if (coordinate.is_angle) return {kAngle, kAngularVelocity, kMoment, kTorsionalStiffness, kTorsionalDamping};
+  return {kLength, kVelocity, kForce, kStiffness, kDamping};
+}
+
+Scene::CoordinateSpring read_spring(int i, const Value& value, const JointCoordinateKind& kind) {
+  const Mapping keys(value, {"stiffness", "damping", "free"});
+  const CoordinateDimensions d = dimensions_of(kind, value);
+  Scene::CoordinateSpring spring;
+  spring.coordinate = i;
+  if (const auto k = keys.optional("stiffness")) spring.stiffness = k->non_negative(d.stiffness);
+  if (const auto c = keys.optional("damping")) spring.damping = c->non_negative(d.damping);
+  if (spring.stiffness == 0 && spring.damping == 0)
+    value.refuse("the spring has neither stiffness nor damping", "give one of them");
+  if (const auto free = keys.optional("free")) spring.free = free->number(d.value);
+  return spring;
+}
+
+Scene::CoordinateFriction read_friction(int i, const Value& value, const JointCoordinateKind& kind) {
+  const Mapping keys(value, {"coulomb", "viscous", "smoothing", "peak", "peak_rate"});
+  const CoordinateDimensions d = dimensions_of(kind, value);
+  Scene::CoordinateFriction friction;
+  friction.coordinate = i;
+  friction.smoothing = 1e-3;
+  if (const auto f = keys.optional("coulomb")) friction.coulomb = f->non_negative(d.force);
+  if (const auto c = keys.optional("viscous")) friction.viscous = c->non_negative(d.damping);
+  if (const auto s = keys.optional("smoothing")) friction.smoothing = s->positive(d.rate);
+  if (const auto peak = keys.optional("peak")) {
+    friction.peak = peak->non_negative(d.force);
+    if (*friction.peak < friction.coulomb)
+      peak->refuse("friction at rest is less than that of sliding", "give at least 'coulomb'");
+    friction.peak_rate = keys.required("peak_rate").positive(d.rate);
   }
-  const bool turns = joint.type == JointType::kRevolute;
-  if (const auto position = keys.optional("position"))
-    joint.position = position->number(turns ? kAngle : kLength);
-  if (const auto speed = keys.optional("speed"))
-    joint.speed = speed->number(turns ? kAngularVelocity : kVelocity);
+  return friction;
+}
+
+Scene::CoordinateLimit read_limit(int i, const Value& value, const JointCoordinateKind& kind) {
+  const Mapping keys(value, {"lower", "upper", "stiffness", "exponent", "damping"});
+  const CoordinateDimensions d = dimensions_of(kind, value);
+  Scene::CoordinateLimit limit;
+  limit.coordinate = i;
+  if (const auto lower = keys.optional("lower")) limit.lower = lower->number(d.value);
+  if (const auto upper = keys.optional("upper")) limit.upper = upper->number(d.value);
+  if (!limit.lower && !limit.upper) value.refuse("there is no limit", "give 'lower', 'upper' or both");
+  if (limit.lower && limit.upper && !(*limit.lower < *limit.upper))
+    value.refuse("the lower limit is not below the upper one", "exchange them");
+  if (const auto n = keys.optional("exponent")) limit.exponent = n->positive(kRatio);
+  if (limit.exponent < 1) value.refuse("the exponent of a stop is below one", "give 1 to 3; 1.5 is usual");
+  limit.stiffness = keys.required("stiffness").positive(kRatio);
+  if (const auto b = keys.optional("damping")) limit.damping = b->non_negative(kRatio);
+  return limit;
+}
+
+void read_forces(const Mapping& keys, const JointKindInfo& kind, Scene::Joint& joint) {
+  const auto each = [&](std::string_view key, auto read, auto& list) {
+    if (const auto value = keys.optional(key))
+      for_each_coordinate(*value, kind, [&](int i, const Value& own) {
+        list.push_back(read(i, own, kind.coordinates[i]));
+      });
+  };
+  each("spring", read_spring, joint.springs);
+  each("friction", read_friction, joint.frictions);
+  each("limits", read_limit, joint.limits);
+}
+
+/// Axes of the joint in D, as joints/joint_kind.h has them.
+void read_axes(const Mapping& keys, Scene::Joint& joint) {
+  const auto refuse = [&](std::initializer_list<std::string_view> names) {
+    refuse_keys(keys, names, fmt::format("a {} joint has no such axis", info(joint.kind).name));
+  };
+  const auto second = [&](const Vector3& normal_to) -> Vector3 {
+    const Value value = keys.required("second_axis");
+    const Vector3 axis = value.direction();
+    constexpr double kRightAngle = 1e-9;
+    if (std::abs(axis.dot(normal_to)) > kRightAngle)
+      value.refuse("the two axes are not perpendicular", "correct one of them");
+    return (axis - axis.dot(normal_to) * normal_to).normalized();
+  };
+  if (joint.kind != JointKind::screw) refuse_keys(keys, {"pitch"}, "only a screw has a pitch");
+  switch (joint.kind) {
+    case JointKind::fixed:
+    case JointKind::spherical:
+    case JointKind::free:
+      return refuse({"axis", "second_axis"});
+    case JointKind::universal: {
+      const Vector3 x = keys.required("axis").direction(), y = second(x);
+      joint.R_DJ << x, y, x.cross(y);
+      return;
+    }
+    case JointKind::planar:
+    case JointKind::constant_velocity: {
+      const Vector3 z = keys.required("axis").direction();
+      const Vector3 x = keys.has("second_axis") ? second(z) : perpendiculars(z).first;
+      joint.R_DJ << x, z.cross(x), z;
+      return;
+    }
+    default:
+      break;
+  }
+  refuse({"second_axis"});
+  const Vector3 z = keys.required("axis").direction();
+  const auto [x, y] = perpendiculars(z);
+  joint.R_DJ << x, y, z;
+  if (joint.kind == JointKind::screw) joint.pitch = keys.required("pitch").number(kPitch);
 }
 
 Scene::Joint read_joint(const std::string& name, const Value& value,
                         const std::vector<std::string>& motion_names, const Scene& scene) {
-  const Mapping keys(value, {"type", "bodies", "at", "axis", "cut", "position", "speed", "motion"});
+  const Mapping keys(value, {"type", "bodies", "at", "axis", "second_axis", "pitch", "cut", "position", "speed",
+                             "motion", "assembly_weight", "spring", "friction", "limits"});
   Scene::Joint joint;
   joint.name = name;
   joint.where = value.where();
-  joint.type = keys.required("type").choice<JointType>({{"fixed", JointType::kFixed},
-                                                        {"revolute", JointType::kRevolute},
-                                                        {"prismatic", JointType::kPrismatic},
-                                                        {"spherical", JointType::kSpherical},
-                                                        {"free", JointType::kFree}},
+  joint.kind = keys.required("type").choice<JointKind>({{"fixed", JointKind::fixed},
+                                                        {"revolute", JointKind::revolute},
+                                                        {"prismatic", JointKind::prismatic},
+                                                        {"cylindrical", JointKind::cylindrical},
+                                                        {"screw", JointKind::screw},
+                                                        {"universal", JointKind::universal},
+                                                        {"constant_velocity", JointKind::constant_velocity},
+                                                        {"spherical", JointKind::spherical},
+                                                        {"planar", JointKind::planar},
+                                                        {"free", JointKind::free}},
                                                        "the joint types");
-  if (const auto cut = keys.optional("cut")) joint.cut = cut->boolean();
-  if (joint.cut && joint.type != JointType::kSpherical && joint.type != JointType::kRevolute) {
-    keys.required("cut").refuse("only spherical and revolute joints can be cut joints",
-                                "cut the loop at another joint");
-  }
+  const JointKindInfo& kind = info(joint.kind);
+  if (const auto cut = keys.optional("cut"); cut && !cut->is_word("auto")) joint.cut = cut->boolean();
+  if (joint.kind == JointKind::free && joint.cut == true)
+    keys.required("cut").refuse("a free joint closes nothing", "remove the joint");
 
-  auto [parent, child] = read_sides(scene, keys.required("bodies"));
-  if (!joint.cut && child.point.body == Scene::kGround) {
-    child.value.refuse("a joint cannot carry the ground",
-                       "write [ground, body]: the first-named carries the second");
-  }
-  check_hold(scene, parent, joint.type);
-  check_hold(scene, child, joint.type);
-  if (joint.type == JointType::kFree) {
+  auto [first, second] = read_sides(scene, keys.required("bodies"));
+  check_hold(scene, first, joint.kind);
+  check_hold(scene, second, joint.kind);
+  if (joint.kind == JointKind::free) {
     refuse_keys(keys, {"at"}, "a free joint has no place");
-    child.point.p_DP = scene.bodies[static_cast<std::size_t>(child.point.body)].X_DB.p;
-    parent.point.p_DP = child.point.p_DP;
+    const Side& body = second.point.body == Scene::kGround ? first : second;
+    second.point.p_DP = scene.bodies[static_cast<std::size_t>(body.point.body)].X_DB.p;
+    first.point.p_DP = second.point.p_DP;
   } else {
-    place(keys, parent, child);
+    place(keys, first, second);
   }
-  joint.parent = parent.point;
-  joint.child = child.point;
-  read_coordinate(keys, motion_names, joint);
+  joint.first = first.point;
+  joint.second = second.point;
+  read_axes(keys, joint);
+  refuse_without_coordinates(keys, kind);
+  if (joint.cut == true)
+    refuse_keys(keys, {"position", "speed"}, "a cut joint has no coordinate of its own to start from");
+  read_motion(keys, kind, motion_names, joint);
+  read_initial_motion(keys, kind, joint);
+  read_forces(keys, kind, joint);
   return joint;
-}
-
-/// The tree joint that carries each body; -1 for those that float. Throws when there are two.
-std::vector<int> carrying_joints(const Scene& scene) {
-  std::vector<int> carrier(scene.bodies.size(), -1);
-  for (std::size_t j = 0; j < scene.joints.size(); ++j) {
-    const Scene::Joint& joint = scene.joints[j];
-    if (joint.cut) continue;
-    int& known = carrier[static_cast<std::size_t>(joint.child.body)];
-    if (known >= 0) {
-      throw InputError({joint.where.text(),
-                        fmt::format("the body '{}' is carried by two joints, '{}' and '{}'",
-                                    scene.bodies[static_cast<std::size_t>(joint.child.body)].name,
-                                    scene.joints[static_cast<std::size_t>(known)].name, joint.name),
-                        "", "make one of them a cut joint ('cut: true'), or swap its bodies"});
-    }
-    known = static_cast<int>(j);
-  }
-  return carrier;
-}
-
-void check_no_cycle(const Scene& scene, const std::vector<int>& carrier) {
-  enum class Mark { kUnseen, kOnPath, kDone };
-  std::vector<Mark> marks(scene.bodies.size(), Mark::kUnseen);
-  for (std::size_t start = 0; start < scene.bodies.size(); ++start) {
-    std::vector<std::size_t> path;
-    int body = static_cast<int>(start);
-    while (body != Scene::kGround && marks[static_cast<std::size_t>(body)] == Mark::kUnseen) {
-      const auto b = static_cast<std::size_t>(body);
-      marks[b] = Mark::kOnPath;
-      path.push_back(b);
-      body = carrier[b] < 0 ? Scene::kGround : scene.joints[static_cast<std::size_t>(carrier[b])].parent.body;
-    }
-    if (body != Scene::kGround && marks[static_cast<std::size_t>(body)] == Mark::kOnPath) {
-      std::vector<std::string> names;
-      for (auto it = std::find(path.begin(), path.end(), static_cast<std::size_t>(body)); it != path.end();
-           ++it) {
-        names.push_back(scene.joints[static_cast<std::size_t>(carrier[*it])].name);
-      }
-      const auto last = scene.joints[static_cast<std::size_t>(carrier[static_cast<std::size_t>(body)])];
-      throw InputError({last.where.text(),
-                        fmt::format("the tree joints form a cycle: {}", fmt::join(names, ", ")), "",
-                        "make one of them a cut joint ('cut: true')"});
-    }
-    for (const std::size_t b : path) marks[b] = Mark::kDone;
-  }
 }
 
 }  // namespace
@@ -208,17 +305,32 @@ void read_joints(const Value& section, const std::vector<std::string>& motion_na
   }
 }
 
-void check_tree(const Scene& scene) {
-  const std::vector<int> carrier = carrying_joints(scene);
-  check_no_cycle(scene, carrier);
+void check_topology(const Scene& scene) {
+  const SpanningTree tree = scene_tree(scene);
+  if (!tree.impossible.empty()) {
+    std::vector<std::string> names;
+    for (const int j : tree.impossible) names.push_back(scene.joints[static_cast<std::size_t>(j)].name);
+    const Scene::Joint& joint = scene.joints[static_cast<std::size_t>(tree.impossible.front())];
+    throw InputError({joint.where.text(),
+                      fmt::format("not all joints with 'cut: false' fit into one tree: {}", fmt::join(names, ", ")),
+                      "", "leave one joint of each loop to be cut ('cut: true', or no 'cut')"});
+  }
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const Scene::Body& body = scene.bodies[b];
-    if (carrier[b] < 0 || (body.v_WBo.isZero(0) && body.w_WB_B.isZero(0))) continue;
-    const Scene::Joint& joint = scene.joints[static_cast<std::size_t>(carrier[b])];
-    if (joint.type == JointType::kFree && joint.parent.body == Scene::kGround) continue;
+    if (tree.carrier[b] < 0 || (body.v_WBo.isZero(0) && body.w_WB_B.isZero(0))) continue;
+    const Scene::Joint& joint = scene.joints[static_cast<std::size_t>(tree.carrier[b])];
+    if (joint.kind == JointKind::free) continue;
     throw InputError({body.where.text(),
                       fmt::format("the velocity of the body follows from the joint '{}'", joint.name), "",
                       "remove 'velocity' and 'angular_velocity'; give the joint a 'speed' if it moves"});
+  }
+  for (std::size_t j = 0; j < scene.joints.size(); ++j) {
+    const Scene::Joint& joint = scene.joints[j];
+    const bool starts = !joint.position.empty() || !joint.speed.empty();
+    if (!starts || tree.roles[j] != JointRole::closes) continue;
+    throw InputError({joint.where.text(),
+                      "the joint closes a loop and has no coordinate of its own to start from", "",
+                      "leave out its 'position' and 'speed', or say 'cut: true' at another joint of the loop"});
   }
 }
 

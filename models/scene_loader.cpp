@@ -43,7 +43,7 @@ Scene load_scene(const std::filesystem::path& path, const std::vector<std::strin
   const YamlNodePtr document = load_document(path, overrides);
   const Mapping root(
       Value(document, document->where),
-      {"wishbone", "title", "parameters", "gravity", "placement", "bodies", "joints", "springs", "loads",
+      {"wishbone", "title", "parameters", "gravity", "placement", "bodies", "joints", "closures", "springs", "loads",
        "tire_models", "tires", "road", "motions", "vehicle", "analysis", "output"});
   Scene scene;
   scene.text = dump_yaml(*document);
@@ -52,9 +52,10 @@ Scene load_scene(const std::filesystem::path& path, const std::vector<std::strin
     if (const auto section = root.optional(key)) reader(*section, scene);
   };
   read_bodies(root.required("bodies"), scene);
-  if (const auto joints = root.optional("joints"))
-    read_joints(*joints, names_in(root.optional("motions")), scene);
-  check_tree(scene);
+  const std::vector<std::string> motion_names = names_in(root.optional("motions"));
+  if (const auto joints = root.optional("joints")) read_joints(*joints, motion_names, scene);
+  check_topology(scene);
+  if (const auto closures = root.optional("closures")) read_closures(*closures, motion_names, scene);
   read("motions", read_motions);
   read("springs", read_springs);
   read("loads", read_loads);

@@ -5,17 +5,19 @@
 namespace wishbone::scene_sections {
 namespace {
 
-/// What a motion prescribes: the angle or the length of the joints that follow it.
+/// What a motion prescribes: the angle or the length of the joint coordinates and distances that follow it.
 const Dimension& prescribed(const Scene& scene, int motion, const Value& place) {
   const Dimension* dimension = nullptr;
-  for (const Scene::Joint& joint : scene.joints) {
-    if (joint.motion != motion) continue;
-    const Dimension& wanted = joint.type == Scene::JointType::kRevolute ? kAngle : kLength;
-    if (dimension && dimension != &wanted) {
-      place.refuse("revolute and prismatic joints follow the same motion", "write one motion for each");
-    }
+  const auto follow = [&](const Dimension& wanted) {
+    if (dimension && dimension != &wanted)
+      place.refuse("an angle and a length follow the same motion", "write one motion for each");
     dimension = &wanted;
-  }
+  };
+  for (const Scene::Joint& joint : scene.joints)
+    for (std::size_t i = 0; i < joint.motion.size(); ++i)
+      if (joint.motion[i] == motion) follow(info(joint.kind).coordinates[i].is_angle ? kAngle : kLength);
+  for (const Scene::Closure& closure : scene.closures)
+    if (closure.motion == motion) follow(kLength);
   return dimension ? *dimension : kAngle;
 }
 

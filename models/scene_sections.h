@@ -17,6 +17,7 @@ namespace wishbone::scene_sections {
 
 void read_bodies(const Value& section, Scene& scene);
 void read_joints(const Value& section, const std::vector<std::string>& motion_names, Scene& scene);
+void read_closures(const Value& section, const std::vector<std::string>& motion_names, Scene& scene);
 void read_springs(const Value& section, Scene& scene);
 void read_loads(const Value& section, Scene& scene);
 void read_tire_models(const Value& section, Scene& scene);
@@ -27,8 +28,15 @@ void read_vehicle(const Value& section, Scene& scene);
 void read_analysis(const Value& section, Scene& scene);
 void read_output(const Value& section, Scene& scene);
 
-/// Checks that span sections: the joints form a tree, carried bodies have no velocity of their own.
-void check_tree(const Scene& scene);
+/// Checks that span sections: pinned joints fit into a tree, carried bodies have no velocity of their own, joints that close
+/// loops no initial coordinate.
+void check_topology(const Scene& scene);
+
+/// A coordinate of a joint that a gauge can measure, by the keys `joint` and, where the joint has several, `coordinate`.
+Scene::JointCoordinate read_joint_coordinate(const Mapping& keys, const Scene& scene);
+
+/// `ground: [x, y, z]` or a point of a body, as springs name their ends.
+Scene::Point read_end(const Scene& scene, const Value& value);
 
 /// {axis, angle} as a rotation matrix.
 Matrix3 read_rotation(const Value& axis, const Value& angle);

@@ -34,7 +34,8 @@ struct FlexibleMotionT {
 struct Memory {
   std::vector<int> segments;          ///< discrete state of each force element, in the order of System::forces
   std::vector<double> force_angles;   ///< of the force elements' gauges, from which turns are counted [rad]
-  std::vector<double> closure_angles; ///< of the closures' gauges [rad]
+  std::vector<double> closure_angles;   ///< of the closures' gauges [rad]
+  std::vector<double> measured_angles;  ///< of System::measured [rad or m]
 };
 
 /// One evaluation of the equations of motion in residual form (inverse dynamics), for the scalar T: double, or Dual where

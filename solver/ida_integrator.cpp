@@ -184,6 +184,7 @@ Integrator::Step IdaIntegrator::step(double t_stop) {
   if (flag < 0)
     throw_integrator_failure(equations_, "IDA", sundials::flag_name(IDAGetReturnFlagName(flag)), t_, blame());
   equations_.take_failure();  // a trial state that was retried with a smaller step
+  equations_.workspace().markers = residual_->evaluation().markers;
   if (flag != IDA_ROOT_RETURN) return {t_, {}};
   return {t_, sundials::events_found(ida, IDAGetRootInfo, event_count_)};
 }

@@ -66,7 +66,7 @@ void add_closure_loads(const System& system, const VectorXT<T>& lambda, Evaluati
 }
 
 bool counts_turns(const System& system) {
-  bool any = system.n_gauges > 0;
+  bool any = system.n_gauges > 0 || !system.measured.empty();
   for_each_force(system, [&](const auto& element, int) {
     if constexpr (requires(ForceInput input) { element.angle(input); }) any = true;
   });
@@ -82,6 +82,11 @@ void remember_angles(const System& system, const State& state, Evaluation<double
     x_start += element.state_count();
   });
   remember_closure_angles(system, ev);
+  for (std::size_t i = 0; i < system.measured.size(); ++i) {
+    const MeasuredCoordinate& c = system.measured[i];
+    double& angle = ev.memory.measured_angles[i];
+    angle = c.gauge.value(ev.markers[c.A], ev.markers[c.B], angle);
+  }
 }
 
 #define WISHBONE_INSTANTIATE(T)                                                               \

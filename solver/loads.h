@@ -45,7 +45,8 @@ void add_closure_loads(const System& system, const VectorXT<T>& lambda, Evaluati
 /// Whether any gauge has turns to count.
 bool counts_turns(const System& system);
 
-/// Counts the turns of every gauge from the markers' states: called when a step is accepted.
+/// Counts the turns of every gauge from the markers' states of the last evaluation: after an accepted step, from which no
+/// angle has moved by half a turn.
 void remember_angles(const System& system, const State& state, Evaluation<double>& ev);
 
 }  // namespace wishbone

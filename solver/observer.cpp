@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "solver/forward_dynamics.h"
+#include "joints/joint_kind.h"
 #include "solver/closures.h"
 #include "solver/loads.h"
 #include "solver/reactions.h"
@@ -35,13 +36,6 @@ JointMotion scalar_motion(const TreeBody& body, const State& state) {
   return {state.q[body.q_start], state.v[body.v_start]};
 }
 
-/// Axis of a joint with one freedom or with a prescribed motion, axes of the body.
-Vector3 scalar_axis(const TreeBody& body) {
-  if (const auto* prescribed = std::get_if<PrescribedJoint>(&body.joint)) return prescribed->axis_F;
-  if (const auto* revolute = std::get_if<RevoluteJoint>(&body.joint)) return revolute->axis_F;
-  return std::get<PrismaticJoint>(body.joint).axis_F;
-}
-
 struct Units {
   const char* coordinate;
   const char* speed;
@@ -59,6 +53,7 @@ Observer::Observer(const System& system, const ObserverOptions& options) : syste
   add_bodies(system);
   add_flexible(system, options);
   add_tree_joints(system);
+  add_measured(system);
   add_closures(system);
   add_forces(system);
   if (options.chassis >= 0) add_vehicle(options);
@@ -71,7 +66,7 @@ Observer::Observer(const System& system, const ObserverOptions& options) : syste
 
 std::span<const double> Observer::sample(const State& state, const Work& work, Workspace& ws) {
   calc_forward_dynamics(system_, state, ws);
-  calc_joint_forces(system_, ws);
+  calc_reactions(system_, ws);
   Sample sample{system_, state, ws, calc_energy(system_, state, ws)};
   if (!started_) springs_at_start_ = sample.energy.springs;
   started_ = true;
@@ -150,6 +145,16 @@ void Observer::add_tree_joints(const System& system) {
           [i](const Sample& s, double* out) { *out = scalar_motion(s.system.bodies[i], s.state).position; });
       add(path + "/speeds", {}, units.speed, "", "joint speed",
           [i](const Sample& s, double* out) { *out = scalar_motion(s.system.bodies[i], s.state).rate; });
+    } else if (body.nv > 1 && body.nq == body.nv) {
+      const JointKindInfo& kind = *find_info(joint_kind(body.joint));
+      for (std::size_t k = 0; k < kind.coordinates.size(); ++k) {
+        const std::string name(kind.coordinates[k].name);
+        const bool angle = kind.coordinates[k].is_angle;
+        add(path + "/" + name, {}, angle ? "rad" : "m", "", "joint coordinate",
+            [q = body.q_start + k](const Sample& s, double* out) { *out = s.state.q[q]; });
+        add(path + "/" + name + "_rate", {}, angle ? "rad/s" : "m/s", "", "joint speed",
+            [v = body.v_start + k](const Sample& s, double* out) { *out = s.state.v[v]; });
+      }
     } else if (body.nv > 1) {
       add_rotation(path, body);
       if (body.nv == 6) add_translation(path, body);
@@ -168,7 +173,7 @@ void Observer::add_tree_joints(const System& system) {
         [i](const Sample& s, double* out) {
           const TreeBody& b = s.system.bodies[i];
           const auto& joint = std::get<PrescribedJoint>(b.joint);
-          const Vector3 axis = inboard_rotation(b, s.ws) * joint.axis_F;
+          const Vector3 axis = (b.first_is_child ? -1.0 : 1.0) * (inboard_rotation(b, s.ws) * joint.axis_F);
           const Vector6 F = -tree_joint_reaction(s.system, s.ws, static_cast<int>(i));
           *out = axis.dot(joint.kind == PrescribedJoint::Kind::revolute ? Vector3(angular(F))
                                                                         : Vector3(linear(F)));
@@ -193,6 +198,24 @@ void Observer::add_translation(const std::string& path, const TreeBody& body) {
       [v = body.v_start](const Sample& s, double* out) { put(s.state.v.segment<3>(v + 3), out); });
 }
 
+void Observer::add_measured(const System& system) {
+  for (std::size_t i = 0; i < system.measured.size(); ++i) {
+    const MeasuredCoordinate& c = system.measured[i];
+    const std::string path = "/joints/" + c.joint + "/";
+    const bool angle = c.gauge.is_angle();
+    add(path + (c.name.empty() ? "coordinates" : c.name), {}, angle ? "rad" : "m", "", "joint coordinate",
+        [i](const Sample& s, double* out) {
+          const MeasuredCoordinate& m = s.system.measured[i];
+          *out = m.gauge.value(s.ws.markers[m.A], s.ws.markers[m.B], s.ws.memory.measured_angles[i]);
+        });
+    add(path + (c.name.empty() ? "speeds" : c.name + "_rate"), {}, angle ? "rad/s" : "m/s", "", "joint speed",
+        [i](const Sample& s, double* out) {
+          const MeasuredCoordinate& m = s.system.measured[i];
+          *out = m.gauge.rate(s.ws.markers[m.A], s.ws.markers[m.B]);
+        });
+  }
+}
+
 void Observer::add_closures(const System& system) {
   for (std::size_t c = 0; c < system.closures.size(); ++c) {
     const std::string path = "/joints/" + system.closures[c].name;
@@ -200,7 +223,7 @@ void Observer::add_closures(const System& system) {
       return closure_wrench(s.system.closures[c], 0, s.ws.lambda, s.ws);
     };
     add(path + "/force", {3}, "N", kWorld,
-        "reaction on the first-named body, at the joint; none along directions that are redundant",
+        "reaction on the first-named body, at the joint; of least norm where the mechanism is over-constrained",
         [reaction](const Sample& s, double* out) { put(linear(reaction(s)), out); });
     add(path + "/moment", {3}, "N m", kWorld, "reaction moment on the first-named body, about the joint",
         [reaction](const Sample& s, double* out) { put(angular(reaction(s)), out); });
@@ -222,6 +245,13 @@ void Observer::add_forces(const System& system) {
       add(path + "/rate", {}, "m/s", "", "rate of change of the length",
           [input, &element](const Sample& s, double* out) { *out = element.output(input(s)).rate; });
       add(path + "/force", {}, "N", "", "force, positive in tension",
+          [input, &element](const Sample& s, double* out) { *out = element.output(input(s)).force; });
+    } else if constexpr (requires { element.gauge(); }) {
+      const bool angle = element.gauge().is_angle();
+      const std::string path = "/forces/" + element.name();
+      add(path + "/value", {}, angle ? "rad" : "m", "", "joint coordinate",
+          [input, &element](const Sample& s, double* out) { *out = element.output(input(s)).value; });
+      add(path + "/force", {}, angle ? "N m" : "N", "", "along the coordinate, positive lets it grow",
           [input, &element](const Sample& s, double* out) { *out = element.output(input(s)).force; });
     } else if constexpr (std::is_same_v<Element, Tire>) {
       const std::string path = "/tires/" + element.name();
@@ -266,9 +296,8 @@ void Observer::add_vehicle(const ObserverOptions& options) {
       [w_B](const Sample& s, double* out) { *out = w_B(s).z(); });
   for (const ObserverOptions::Steering& steering : options.steering) {
     const int i = steering.body;
-    const double sign = scalar_axis(system_.bodies[i]).z() < 0 ? -1.0 : 1.0;  // of an axis that points down
     add("/vehicle/steering_" + steering.name, {}, "rad", "", "steering angle, positive to the left",
-        [i, sign](const Sample& s, double* out) {
+        [i, sign = steering.sign](const Sample& s, double* out) {
           *out = sign * scalar_motion(s.system.bodies[i], s.state).position;
         });
   }

@@ -19,7 +19,8 @@ struct ObserverOptions {
   };
   struct Steering {
     std::string name;
-    int body = -1;  ///< body whose inboard joint steers
+    int body = -1;   ///< body whose inboard joint steers
+    double sign = 1;  ///< of the coordinate, positive to the left
   };
   std::vector<Deflection> deflections;
   int chassis = -1;  ///< body of the derived vehicle signals; -1: none
@@ -55,6 +56,7 @@ class Observer {
   void add_tree_joints(const System& system);
   void add_rotation(const std::string& path, const TreeBody& body);
   void add_translation(const std::string& path, const TreeBody& body);
+  void add_measured(const System& system);
   void add_closures(const System& system);
   void add_forces(const System& system);
   void add_vehicle(const ObserverOptions& options);

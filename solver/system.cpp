@@ -5,9 +5,10 @@
 namespace wishbone {
 namespace {
 
-const char* speed_component(const TreeBody& body, int i) {
+std::string speed_component(const TreeBody& body, int i) {
   static constexpr const char* kNames[] = {"wx", "wy", "wz", "vx", "vy", "vz"};
-  return body.nv == 1 ? "speed" : kNames[i];
+  if (body.nv == 1) return "speed";
+  return body.nq == body.nv ? "speed " + std::to_string(i + 1) : kNames[i];
 }
 
 }  // namespace
@@ -38,11 +39,14 @@ std::string System::row_name(int row) const {
 
 std::vector<double> System::stop_times() const {
   std::vector<double> times;
+  const auto add = [&](const Motion& motion) {
+    const std::vector<double> t = motion.stop_times();
+    times.insert(times.end(), t.begin(), t.end());
+  };
   for (const TreeBody& body : bodies)
-    if (const auto* joint = std::get_if<PrescribedJoint>(&body.joint)) {
-      const std::vector<double> t = joint->motion.stop_times();
-      times.insert(times.end(), t.begin(), t.end());
-    }
+    if (const auto* joint = std::get_if<PrescribedJoint>(&body.joint)) add(joint->motion);
+  for (const Closure& closure : closures)
+    if (const Motion* motion = drive(closure.joint)) add(*motion);
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;

@@ -11,6 +11,9 @@
 #include "core/spatial.h"
 #include "forces/applied_load.h"
 #include "forces/force_element.h"
+#include "forces/joint_friction.h"
+#include "forces/joint_limit.h"
+#include "forces/joint_spring.h"
 #include "forces/spring_damper.h"
 #include "forces/tire/tire.h"
 #include "joints/cut_joint.h"
@@ -63,8 +66,17 @@ struct Closure {
   std::vector<int> path;  ///< bodies between any of the markers and the root, outermost first
 };
 
+/// A coordinate of a joint that is measured between two markers, to be recorded: of joints that close loops.
+struct MeasuredCoordinate {
+  std::string joint, name;  ///< name of the coordinate, "angle", "travel" ...; empty where the joint has one only
+  Gauge gauge;
+  MarkerIndex A = 0, B = 0;
+};
+
 /// Force elements by concrete type, so that the evaluation calls them without dispatch. A new force is one entry.
-using ForceElements = std::tuple<std::vector<SpringDamper>, std::vector<Tire>, std::vector<AppliedLoad>>;
+using ForceElements =
+    std::tuple<std::vector<SpringDamper>, std::vector<Tire>, std::vector<AppliedLoad>, std::vector<JointSpring>,
+               std::vector<JointFriction>, std::vector<JointLimit>>;
 
 /// The compiled scene: what must be evaluated and nothing else. Immutable; every mutable number of an evaluation is in
 /// a Workspace. Made by SystemBuilder.
@@ -75,6 +87,7 @@ struct System {
   std::vector<Marker> markers;
   std::vector<Closure> closures;
   ForceElements forces;
+  std::vector<MeasuredCoordinate> measured;
 
   /// Factors on the speeds' shares in the metric in which the initial pose is assembled; empty: all one.
   VectorX assembly_weights;

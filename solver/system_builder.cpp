@@ -140,10 +140,10 @@ void SystemBuilder::add_tree_body(int entry, System& system, State& state) {
     q << Q_FB.w(), Q_FB.x(), Q_FB.y(), Q_FB.z(), X_FB.p;
     v << source.w_WB_B, X_WF.R.transpose() * source.v_WB;
   } else {
-    // F and M stand at the joint with the child's axes
+    // F and M stand at the joint with the second-named body's axes
     const JointEntry& joint = joints_[source.joint];
     const Pose X_WP = joint.parent.body == kGround ? Pose{} : bodies_[joint.parent.body].X_WB;
-    const Pose X_WF{source.X_WB.R, joint.p_W};
+    const Pose X_WF{joint.first_is_child ? X_WP.R : source.X_WB.R, joint.p_W};
     body.X_PF = X_WP.inverse() * X_WF;
     body.X_MB = X_WF.inverse() * source.X_WB;
     const InitialMotion& initial = joint.initial;
@@ -211,6 +211,7 @@ std::pair<System, State> SystemBuilder::build() && {
   }
   find_paths(system);
 
+  system.measured = std::move(measured_);
   system.forces = std::move(forces_);
   std::apply([&](const auto&... lists) { ((system.n_forces += static_cast<int>(lists.size())), ...); },
              system.forces);

@@ -39,8 +39,9 @@ class SystemBuilder {
     std::vector<double> coordinates, speeds, weights;
   };
 
-  /// Tree joint that carries `child` on `parent` at the point p_W. Axes have the components of the child's body axes.
-  /// `first_is_child`: the joint was named from child to parent, so reactions and coordinates are those of its reverse.
+  /// Tree joint that carries `child` on `parent` at the point p_W. Axes have the components of the second-named body's axes,
+  /// which is the child. `first_is_child`: the joint was named from child to parent; then it is given reversed
+  /// (joints/tree_joint.h), and the parent is the second-named body.
   void add_joint(std::string name, Attachment parent, int child, const Vector3& p_W, TreeJoint joint,
                  InitialMotion initial = {}, bool first_is_child = false);
   void add_joint(std::string name, Attachment parent, int child, const Vector3& p_W, TreeJoint joint,
@@ -53,6 +54,9 @@ class SystemBuilder {
   void add_closure(std::string name, MarkerIndex A, MarkerIndex B, CutJoint joint) {
     add_closure(std::move(name), std::vector<MarkerIndex>{A, B}, std::move(joint));
   }
+
+  /// Has a coordinate between two markers recorded.
+  void measure(MeasuredCoordinate coordinate) { measured_.push_back(std::move(coordinate)); }
 
   /// Marker at p_W with axes R_WM in the design pose; on a node, at the node.
   MarkerIndex add_marker(Attachment on, const Vector3& p_W, const Matrix3& R_WM = Matrix3::Identity());
@@ -108,6 +112,7 @@ class SystemBuilder {
   std::vector<Marker> markers_;
   std::vector<Closure> closures_;
   ForceElements forces_;
+  std::vector<MeasuredCoordinate> measured_;
   std::vector<int> order_of_;  // entry -> index in System::bodies
   std::vector<double> weights_;  // of the speeds, in the order of System
 };

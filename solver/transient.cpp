@@ -105,12 +105,7 @@ class Run {
 
   /// Looks after what is remembered from step to step: turns of angles, the choice of closure rows and of variables.
   void accept(double t, TransientSummary& summary) {
-    if (counts_turns_) {
-      interpolate(t);
-      update_positions<double>(system_, t, state_.q, ws_);
-      update_markers<double>(system_, ws_);
-      remember_angles(system_, state_, ws_);
-    }
+    if (counts_turns_) remember_angles(system_, state_, ws_);
     if (system_.n_rows == 0) return;
     watch_.observe(t, ws_.closure);
     if (integrator_->outlived()) restart(t, summary);

@@ -111,7 +111,6 @@ TEST(Failure, OfTheStepLimitSaysSo) {
 TEST(Failure, OfUnsuitableFormsIsRefusedBeforeTheRun) {
   const Built m = four_bar(SphericalClosure{}, 1.0);
   EXPECT_THROW(simulate(m.system, m.state, 1, 0.1, 1e-6, Method::erk, Form::ode), InputError);
-  EXPECT_THROW(simulate(m.system, m.state, 1, 0.1, 1e-6, Method::adams, Form::index1), InputError);
   EXPECT_THROW(simulate(m.system, m.state, 1, 0.1, 1e-6, Method::erk, Form::ggl), InputError);
 }
 
