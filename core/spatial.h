@@ -86,6 +86,10 @@ Vector6T<typename A::Scalar> spatial(const Eigen::MatrixBase<A>& angular_part,
   return V;
 }
 
+inline Vector6 spatial(const Vector3& angular_part, const Vector3& linear_part) {
+  return spatial<Vector3, Vector3>(angular_part, linear_part);
+}
+
 /// Rigid shift of a velocity from Po to Bo: (w, v_Po + w x p_PB).
 template <class T>
 Vector6T<T> shift_velocity(const Vector6T<T>& V_P, const Vector3T<T>& p_PB) {
@@ -96,6 +100,13 @@ Vector6T<T> shift_velocity(const Vector6T<T>& V_P, const Vector3T<T>& p_PB) {
 template <class T>
 Vector6T<T> shift_wrench(const Vector6T<T>& F_B, const Vector3T<T>& p_PB) {
   return spatial(angular(F_B) + p_PB.cross(linear(F_B)), linear(F_B));
+}
+
+inline Vector6 shift_velocity(const Vector6& V_P, const Vector3& p_PB) {
+  return shift_velocity<double>(V_P, p_PB);
+}
+inline Vector6 shift_wrench(const Vector6& F_B, const Vector3& p_PB) {
+  return shift_wrench<double>(F_B, p_PB);
 }
 
 /// Spatial inertia about Po of a (possibly articulated) inertia given about Bo:
@@ -151,6 +162,10 @@ Matrix3T<T> rotation_from_quaternion(const T* q_wxyz) {
   return R;
 }
 
+inline Matrix3 rotation_from_quaternion(const Eigen::Vector4d& q_wxyz) {
+  return rotation_from_quaternion<double>(q_wxyz.data());
+}
+
 /// d/dt (w, x, y, z) of a quaternion R_FM whose frame M turns with w_FM_M (components in M):
 /// q' = 1/2 q o (0, w).
 template <class T>
@@ -160,6 +175,10 @@ Eigen::Matrix<T, 4, 1> quaternion_rate(const T* q_wxyz, const Vector3T<T>& w_FM_
   Eigen::Matrix<T, 4, 1> rate;
   rate << -u.dot(w_FM_M), w * w_FM_M + u.cross(w_FM_M);
   return rate;
+}
+
+inline Eigen::Vector4d quaternion_rate(const Eigen::Vector4d& q_wxyz, const Vector3& w_FM_M) {
+  return quaternion_rate<double>(q_wxyz.data(), w_FM_M);
 }
 
 /// The matrix that turns an angular velocity w_FM_M into the rate of the rotation vector phi of R_FM = exp(phi~):

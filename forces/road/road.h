@@ -49,6 +49,7 @@ class Road {
   /// The surface at (x, y) by the formula of `segment`, whether or not x lies within its edges.
   template <class T>
   RoadPointT<T> at(const T& x, const T& y, int segment) const;
+  RoadPoint at(double x, double y, int segment) const { return at<double>(x, y, segment); }
 
  private:
   // profile = -depth sin(wave_number (x - lower)); a flat segment has depth and wave number zero

@@ -77,6 +77,9 @@ T ua_slip_reference_speed(const T& vx, const T& v_cir);
 /// Kinematic slips of a contact point that moves with (vx, vy) while the tread circulates with v_cir [m/s].
 template <class T>
 UaSlipT<T> ua_slip(const T& vx, const T& vy, const T& v_cir, const T& gamma);
+inline UaSlip ua_slip(double vx, double vy, double v_cir, double gamma) {
+  return ua_slip<double>(vx, vy, v_cir, gamma);
+}
 
 /// Patch length l = sqrt(8 R1 delta) [m] of a penetration delta [m].
 template <class T>
@@ -86,6 +89,9 @@ T ua_patch_length(const UaTireParameters& tire, const T& delta);
 /// 3 t^2 - 2 t^3 from 0 to 1 over the first 2 mm, so that damping fades in from zero at touch-down.
 template <class T>
 T ua_normal_force(const UaTireParameters& tire, const T& delta, const T& delta_rate);
+inline double ua_normal_force(const UaTireParameters& tire, double delta, double delta_rate) {
+  return ua_normal_force<double>(tire, delta, delta_rate);
+}
 
 /// The continuous form. With ax = Cs sx, ay = C_alpha sy, F = mu Fz and ag = C_gamma sin(gamma) held within
 /// +-F, sliding starts at xi = l_n = 1 - Sn where |(ax, ay + 3 ag Sn)| = 3 F Sn and keeps the direction u of

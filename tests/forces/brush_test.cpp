@@ -153,11 +153,11 @@ void expect_closed_form_equals_brush(Law law, Brush brush, unsigned seed) {
 }
 
 TEST(Brush, SmoothFormIsTheIntegralOfItsStresses) {
-  expect_closed_form_equals_brush(ua_shear_smooth, smooth_brush, 20);
+  expect_closed_form_equals_brush(ua_shear_smooth<double>, smooth_brush, 20);
 }
 
 TEST(Brush, ClassicFormIsTheIntegralOfItsStresses) {
-  expect_closed_form_equals_brush(ua_shear_classic, classic_brush, 21);
+  expect_closed_form_equals_brush(ua_shear_classic<double>, classic_brush, 21);
 }
 
 }  // namespace

@@ -128,7 +128,7 @@ TEST(Tire, FollowsTheLawAtItsSlips) {
   const UaSlip slip = ua_slip(20, 0.7, 0.97 * 20, 0);
   const std::vector<double> states{slip.sx * p.relaxation_x, slip.sy * p.relaxation_y};
   for (const UaForm form : {UaForm::kSmooth, UaForm::kClassic}) {
-    const auto law = form == UaForm::kSmooth ? ua_shear_smooth : ua_shear_classic;
+    const auto law = form == UaForm::kSmooth ? ua_shear_smooth<double> : ua_shear_classic<double>;
     const UaShear shear = law(p, slip, std::sqrt(8 * 0.3008 * 0.02), 176400 * 0.02);
     for (const TireOutput& out : {output(Tire("tire", 0, p, Road(), form), w),
                                   output(Tire("tire", 0, p, Road(), form, true), w, states)}) {

@@ -18,7 +18,7 @@ const UaTireParameters kTire = sample_tire();
 constexpr double kLoad = 3500;
 const double kPatch = ua_patch_length(kTire, kLoad / 176400);
 
-using Law = UaShear (*)(const UaTireParameters&, const UaSlip&, double, double);
+using Law = UaShear (*)(const UaTireParameters&, const UaSlip&, const double&, const double&);
 
 // Slips of a wheel at a slip ratio (positive braking, vr = vx; negative traction, vr = v_cir = vx/(1 +
 // kappa)) and angles in degrees; no regularisation.
@@ -89,7 +89,7 @@ class UaTireForms : public ::testing::TestWithParam<Law> {
     return GetParam()(kTire, {sx, sy, gamma}, kPatch, Fz);
   }
 };
-INSTANTIATE_TEST_SUITE_P(, UaTireForms, ::testing::Values(&ua_shear_smooth, &ua_shear_classic),
+INSTANTIATE_TEST_SUITE_P(, UaTireForms, ::testing::Values(&ua_shear_smooth<double>, &ua_shear_classic<double>),
                          [](const auto& form) { return form.index == 0 ? "Smooth" : "Classic"; });
 
 TEST_P(UaTireForms, SlopesAtZeroSlipAreTheStiffnesses) {
@@ -130,7 +130,7 @@ TEST_P(UaTireForms, ForceStaysWithinTheFrictionCircle) {
   Random random(3);
   for (int i = 0; i < 2000; ++i) {
     const double Fz = random.uniform(1, 9000);
-    const double gamma = GetParam() == &ua_shear_smooth ? random.uniform(-0.4, 0.4) : 0.0;
+    const double gamma = GetParam() == &ua_shear_smooth<double> ? random.uniform(-0.4, 0.4) : 0.0;
     const UaShear f = shear(random.signed_decades(1e-4, 3), random.signed_decades(1e-4, 30), gamma, Fz);
     ASSERT_LE(std::hypot(f.fx, f.fy), f.friction * Fz * (1 + 1e-12));
     ASSERT_GE(f.friction, kTire.friction_min);
@@ -204,21 +204,21 @@ TEST(UaTireSmooth, HasNoJumpAnywhere) {
       return UaSlip{random.signed_decades(1e-3, 1.2), random.signed_decades(1e-3, 1.2),
                     random.uniform(-0.3, 0.3)};
     };
-    ASSERT_LT(largest_jump(ua_shear_smooth, slip(), slip(), random.uniform(50, 6000)), 1e-7);
+    ASSERT_LT(largest_jump(ua_shear_smooth<double>, slip(), slip(), random.uniform(50, 6000)), 1e-7);
   }
 }
 
 TEST(UaTireSmooth, HasNoJumpWhereAWeaklyLoadedTireLeans) {
   // without holding the camber stress within friction the force would jump here, at C_gamma sin(gamma) = F
-  EXPECT_LT(largest_jump(ua_shear_smooth, {0, 0.01, 0.0}, {0, 0.01, 0.3}, 1000), 1e-7);
+  EXPECT_LT(largest_jump(ua_shear_smooth<double>, {0, 0.01, 0.0}, {0, 0.01, 0.3}, 1000), 1e-7);
 }
 
 TEST(UaTireClassic, IsContinuousButForTheDocumentedJumps) {
-  EXPECT_LT(largest_jump(ua_shear_classic, {0, 0.004, 0.05}, {0, -0.004, 0.05}),
+  EXPECT_LT(largest_jump(ua_shear_classic<double>, {0, 0.004, 0.05}, {0, -0.004, 0.05}),
             1e-7);                                                                 // I to III, at alpha = 0
-  EXPECT_LT(largest_jump(ua_shear_classic, {0.1, 0.1, 0}, {-0.1, 0.1, 0}), 1e-7);  // traction to braking
-  EXPECT_LT(largest_jump(ua_shear_classic, {0.1, 0.01, 0}, {0.9, 0.3, 0}), 1e-7);  // elastic to sliding
-  EXPECT_LT(largest_jump(ua_shear_classic, {0, -0.05, 0.02}, {0, -0.5, 0.02}), 1e-7);  // the same in case II
+  EXPECT_LT(largest_jump(ua_shear_classic<double>, {0.1, 0.1, 0}, {-0.1, 0.1, 0}), 1e-7);  // traction to braking
+  EXPECT_LT(largest_jump(ua_shear_classic<double>, {0.1, 0.01, 0}, {0.9, 0.3, 0}), 1e-7);  // elastic to sliding
+  EXPECT_LT(largest_jump(ua_shear_classic<double>, {0, -0.05, 0.02}, {0, -0.5, 0.02}), 1e-7);  // the same in case II
 }
 
 TEST(UaTireClassic, JumpsBetweenCasesTwoAndThreeByTheKnownAmounts) {
@@ -234,16 +234,16 @@ TEST(UaTireClassic, JumpsBetweenCasesTwoAndThreeByTheKnownAmounts) {
     const auto Fy = [&](Law law, double tan_alpha) {
       return law(kTire, {-jump.kappa, -tan_alpha, gamma}, kPatch, kLoad).fy;
     };
-    EXPECT_NEAR(Fy(ua_shear_classic, boundary - e), jump.Fy_iii, 0.0051);
-    EXPECT_NEAR(Fy(ua_shear_classic, boundary + e), jump.Fy_ii, 0.0051);
-    EXPECT_NEAR(Fy(ua_shear_smooth, boundary - e), Fy(ua_shear_smooth, boundary + e), 1e-6);
+    EXPECT_NEAR(Fy(ua_shear_classic<double>, boundary - e), jump.Fy_iii, 0.0051);
+    EXPECT_NEAR(Fy(ua_shear_classic<double>, boundary + e), jump.Fy_ii, 0.0051);
+    EXPECT_NEAR(Fy(ua_shear_smooth<double>, boundary - e), Fy(ua_shear_smooth<double>, boundary + e), 1e-6);
   }
 }
 
 TEST(UaTireClassic, MomentOfALeaningBrakedWheelJumpsWithTheSignOfTheSlipAngle) {
   const auto tz = [](Law law, double sy) { return law(kTire, {-0.05, sy, 4 * kDegree}, kPatch, kLoad).tz(); };
-  EXPECT_GT(std::abs(tz(ua_shear_classic, 1e-12) - tz(ua_shear_classic, -1e-12)), 0.1);
-  EXPECT_NEAR(tz(ua_shear_smooth, 1e-12), tz(ua_shear_smooth, -1e-12), 1e-6);
+  EXPECT_GT(std::abs(tz(ua_shear_classic<double>, 1e-12) - tz(ua_shear_classic<double>, -1e-12)), 0.1);
+  EXPECT_NEAR(tz(ua_shear_smooth<double>, 1e-12), tz(ua_shear_smooth<double>, -1e-12), 1e-6);
 }
 
 TEST(UaSlip, BrakingAndTractionMeetContinuously) {
@@ -256,13 +256,13 @@ TEST(UaSlip, BrakingAndTractionMeetContinuously) {
 }
 
 TEST(UaSlip, KeepsItsSignsRollingBackward) {
-  EXPECT_LT(ua_slip(20, 0, 18, 0).sx, 0);    // braking forward: pushed back
-  EXPECT_GT(ua_slip(-20, 0, -18, 0).sx, 0);  // braking backward: pushed forward
-  EXPECT_LT(ua_slip(-20, 1, -20, 0).sy, 0);  // slipping left: pushed right either way
+  EXPECT_LT(ua_slip(20.0, 0.0, 18.0, 0.0).sx, 0);    // braking forward: pushed back
+  EXPECT_GT(ua_slip(-20.0, 0.0, -18.0, 0.0).sx, 0);  // braking backward: pushed forward
+  EXPECT_LT(ua_slip(-20.0, 1.0, -20.0, 0.0).sy, 0);  // slipping left: pushed right either way
 }
 
 TEST(UaSlip, IsFiniteAtStandstill) {
-  const UaSlip slip = ua_slip(0, 0, 0, 0);
+  const UaSlip slip = ua_slip(0.0, 0.0, 0.0, 0.0);
   EXPECT_EQ(slip.sx, 0);
   EXPECT_EQ(slip.sy, 0);
   EXPECT_NEAR(ua_slip(0, 0.05, 0, 0).sy, -0.5, 1e-15);
@@ -270,7 +270,7 @@ TEST(UaSlip, IsFiniteAtStandstill) {
 
 TEST(UaSlip, RegularisationIsInvisibleAtTravelSpeed) {
   // sqrt(1 + (v_eps/v)^2) - 1 = v_eps^2/(2 v^2)
-  EXPECT_NEAR(ua_slip(20, 1, 20, 0).sy * 20, -1, 1.3e-5);
+  EXPECT_NEAR(ua_slip(20.0, 1.0, 20.0, 0.0).sy * 20, -1, 1.3e-5);
 }
 
 TEST(UaNormalForce, IsElasticWithDampingThatFadesIn) {

@@ -91,8 +91,8 @@ TEST_F(SceneText, PrismaticMotionIsInMetres) {
            "joints: {lift: {type: prismatic, bodies: [ground, ball], at: [0, 0, 2], axis: [0, 0, 3], motion: "
            "up}}\n"
            "motions: {up: {start: 2 cm, steps: [{time: 1 s, duration: 100 ms, change: 3 mm}]}}\n");
-  EXPECT_EQ(scene.joints[0].motion, 0);
-  EXPECT_EQ(scene.joints[0].axis_D, Vector3::UnitZ());
+  EXPECT_EQ(scene.joints[0].motion, std::vector<int>{0});
+  EXPECT_EQ(scene.joints[0].R_DJ.col(2), Vector3::UnitZ());
   EXPECT_DOUBLE_EQ(scene.motions[0].start, 0.02);
   EXPECT_DOUBLE_EQ(scene.motions[0].steps[0].duration, 0.1);
   EXPECT_DOUBLE_EQ(scene.motions[0].steps[0].change, 0.003);
@@ -108,9 +108,9 @@ TEST_F(SceneText, JointTakesTheNodesPlaceInBothForms) {
         "material: {young: 1 GPa, poisson: 0.3, density: 1000}, modes: 3, damping: [1 %, 2 %, 0]}\n"
         "joints: {hold: {type: spherical, bodies: [ground, {body: beam, node: 1}], at: [0.1, -1, 0.8]}}\n");
     // Node 1 is at (-1, -0.1, -0.2) of the block, which is turned by 90 degrees about z.
-    EXPECT_LT((scene.joints[0].child.p_DP - Vector3(0.1, -1, 0.8)).norm(), 1e-15);
-    EXPECT_LT((scene.joints[0].parent.p_DP - Vector3(0.1, -1, 0.8)).norm(), 1e-15);
-    EXPECT_EQ(scene.joints[0].child.node, 1);
+    EXPECT_LT((scene.joints[0].second.p_DP - Vector3(0.1, -1, 0.8)).norm(), 1e-15);
+    EXPECT_LT((scene.joints[0].first.p_DP - Vector3(0.1, -1, 0.8)).norm(), 1e-15);
+    EXPECT_EQ(scene.joints[0].second.node, 1);
     EXPECT_THAT(scene.bodies[0].flexible->damping, testing::ElementsAre(0.01, 0.02, 0));
   }
 }
@@ -125,7 +125,7 @@ TEST_F(SceneText, LongChainsLoad) {
     text += "  j" + std::to_string(i) + ": {type: fixed, bodies: [b" + std::to_string(i - 1) + ", b" +
             std::to_string(i) + "], at: [0, 0, 0]}\n";
   }
-  EXPECT_EQ(load(text).joints.back().parent.body, 498);
+  EXPECT_EQ(load(text).joints.back().first.body, 498);
 }
 
 TEST(BlockNodes, FollowTheVehiclesTable) {
@@ -173,11 +173,11 @@ TEST(Car, LinksHangOnTheTabulatedNodes) {
   for (const auto& [corner, hinge_node, stay_node, p_hinge, p_stay] : links) {
     const auto& hinge = joint_named(scene, corner + std::string("_hinge"));
     const auto& stay = joint_named(scene, corner + std::string("_stay"));
-    EXPECT_EQ(hinge.parent.node, hinge_node);
-    EXPECT_EQ(stay.parent.node, stay_node);
-    EXPECT_EQ(scene.bodies[static_cast<std::size_t>(hinge.parent.body)].name, "chassis");
-    EXPECT_EQ(scene.bodies[static_cast<std::size_t>(stay.child.body)].name, corner + std::string("_link"));
-    EXPECT_LT((hinge.child.p_DP - p_hinge).norm() + (stay.child.p_DP - p_stay).norm(), 1e-15);
+    EXPECT_EQ(hinge.first.node, hinge_node);
+    EXPECT_EQ(stay.first.node, stay_node);
+    EXPECT_EQ(scene.bodies[static_cast<std::size_t>(hinge.first.body)].name, "chassis");
+    EXPECT_EQ(scene.bodies[static_cast<std::size_t>(stay.second.body)].name, corner + std::string("_link"));
+    EXPECT_LT((hinge.second.p_DP - p_hinge).norm() + (stay.second.p_DP - p_stay).norm(), 1e-15);
   }
 }
 
@@ -207,8 +207,8 @@ TEST(Car, IsMirrorSymmetric) {
   for (const auto& left : scene.joints) {
     if (left.name.find("left") == std::string::npos) continue;
     const auto& right = joint_named(scene, other_side(left.name));
-    EXPECT_LT((right.parent.p_DP - mirrored(left.parent.p_DP)).norm(), 1e-15);
-    EXPECT_EQ(right.axis_D, left.axis_D);
+    EXPECT_LT((right.first.p_DP - mirrored(left.first.p_DP)).norm(), 1e-15);
+    EXPECT_EQ(right.R_DJ.col(2), left.R_DJ.col(2));
     EXPECT_EQ(right.speed, left.speed);
     ++pairs;
   }
@@ -221,7 +221,7 @@ TEST(Car, WheelsRollFreelyForward) {
   for (const char* wheel : {"front_left", "front_right", "rear_left", "rear_right"}) {
     const auto& bearing = joint_named(scene, wheel + std::string("_bearing"));
     const double effective_radius = 0.315 - (0.315 - 0.3) / 3;
-    const Vector3 w = bearing.speed * bearing.axis_D;
+    const Vector3 w = bearing.speed.front() * bearing.R_DJ.col(2);
     const Vector3 v_contact = Vector3(v, 0, 0) + w.cross(Vector3(0, 0, -effective_radius));
     EXPECT_LT(v_contact.norm(), 1e-12) << wheel;
   }
@@ -244,10 +244,10 @@ TEST(Car, HungAndFloatingLinksAreTheSameCar) {
   ASSERT_EQ(floating.joints.size(), hung.joints.size());
   int cut_floating = 0, cut_hung = 0;
   for (std::size_t j = 0; j < floating.joints.size(); ++j) {
-    EXPECT_EQ(floating.joints[j].parent.p_DP, hung.joints[j].parent.p_DP);
-    EXPECT_EQ(floating.joints[j].type, hung.joints[j].type);
-    cut_floating += floating.joints[j].cut;
-    cut_hung += hung.joints[j].cut;
+    EXPECT_EQ(floating.joints[j].first.p_DP, hung.joints[j].first.p_DP);
+    EXPECT_EQ(floating.joints[j].kind, hung.joints[j].kind);
+    cut_floating += floating.joints[j].cut == true;
+    cut_hung += hung.joints[j].cut == true;
   }
   EXPECT_EQ(cut_floating, 8);
   EXPECT_EQ(cut_hung, 4);
@@ -261,7 +261,7 @@ TEST(Car, RigidAndModalChassisAreHeldAtTheSamePlaces) {
   EXPECT_EQ(body_named(modal, "chassis").form, Scene::BodyForm::kModal);
   EXPECT_EQ(body_named(rigid, "chassis").form, Scene::BodyForm::kRigid);
   for (std::size_t j = 0; j < modal.joints.size(); ++j) {
-    EXPECT_EQ(modal.joints[j].parent.p_DP, rigid.joints[j].parent.p_DP);
+    EXPECT_EQ(modal.joints[j].first.p_DP, rigid.joints[j].first.p_DP);
   }
   const auto& flexible = *body_named(modal, "chassis").flexible;
   EXPECT_DOUBLE_EQ(flexible.block->size.prod() * flexible.block->density, 998.4);
@@ -291,7 +291,7 @@ TEST(Car, ManoeuvresAreAsDescribed) {
     EXPECT_DOUBLE_EQ(motion.steps[1].time, 0.55);
   }
   const auto& left =
-      steered.motions[static_cast<std::size_t>(joint_named(steered, "front_left_steering").motion)];
+      steered.motions[static_cast<std::size_t>(joint_named(steered, "front_left_steering").motion.front())];
   EXPECT_EQ(left.ackermann->side, Scene::Side::kLeft);
   EXPECT_DOUBLE_EQ(left.ackermann->wheelbase, 2.4);
   EXPECT_THAT(steered.output.nodes.at(0).nodes, testing::ElementsAre(19, 20));

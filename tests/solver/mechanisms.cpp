@@ -154,7 +154,7 @@ Vector6 momentum(const System& system, const State& state) {
       L_B = modal.angular_momentum(ws.flexible[body.flexible].modal);
     }
     const Vector3 p = mass * linear(s.V);
-    total += spatial(s.X_WB.R * L_B + s.X_WB.p.cross(p), p);
+    total += spatial(Vector3(s.X_WB.R * L_B + s.X_WB.p.cross(p)), p);
   }
   return total;
 }
