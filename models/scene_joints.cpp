@@ -319,13 +319,16 @@ void check_topology(const Scene& scene) {
     const Scene::Body& body = scene.bodies[b];
     if (tree.carrier[b] < 0 || (body.v_WBo.isZero(0) && body.w_WB_B.isZero(0))) continue;
     const Scene::Joint& joint = scene.joints[static_cast<std::size_t>(tree.carrier[b])];
-    if (joint.kind == JointKind::free) continue;
+    if (joint.kind == JointKind::free && joint.first.body == Scene::kGround) continue;
     throw InputError({body.where.text(),
                       fmt::format("the velocity of the body follows from the joint '{}'", joint.name), "",
                       "remove 'velocity' and 'angular_velocity'; give the joint a 'speed' if it moves"});
   }
   for (std::size_t j = 0; j < scene.joints.size(); ++j) {
     const Scene::Joint& joint = scene.joints[j];
+    if (joint.kind == JointKind::free && tree.roles[j] == JointRole::carries_first)
+      throw InputError({joint.where.text(), "a free joint carries its second-named body", "",
+                        "exchange the two bodies"});
     const bool starts = !joint.position.empty() || !joint.speed.empty();
     if (!starts || tree.roles[j] != JointRole::closes) continue;
     throw InputError({joint.where.text(),

@@ -218,7 +218,8 @@ constexpr Broken kCatalogue[] = {
            "  remove 'velocity' and 'angular_velocity'; give the joint a 'speed' if it moves"},
     Broken{"UnknownJointType", "type: revolute", "type: hinge",
            "scene.yaml:22:17: joints.pivot.type: error: not one of the joint types (got 'hinge')\n"
-           "  the joint types are: fixed, revolute, prismatic, spherical, free"},
+           "  the joint types are: fixed, revolute, prismatic, cylindrical, screw, universal, "
+           "constant_velocity, spherical, planar, free"},
     Broken{"MissingBody", "bodies: [ground, arm]", "bodies: [ground, amr]",
            "scene.yaml:22:44: joints.pivot.bodies[2]: error: there is no 'amr' among the bodies\n"
            "  did you mean 'arm'?"},
@@ -228,9 +229,6 @@ constexpr Broken kCatalogue[] = {
     Broken{"JointToItself", "bodies: [ground, arm]", "bodies: [arm, arm]",
            "scene.yaml:22:27: joints.pivot.bodies: error: the joint joins a body to itself\n"
            "  name two bodies"},
-    Broken{"GroundCarried", "bodies: [ground, arm]", "bodies: [arm, ground]",
-           "scene.yaml:22:41: joints.pivot.bodies[2]: error: a joint cannot carry the ground (got 'ground')\n"
-           "  write [ground, body]: the first-named carries the second"},
     Broken{"ZeroLengthAxis", "axis: [0, 0, 1]", "axis: [0, 0, 0]",
            "scene.yaml:22:65: joints.pivot.axis: error: the direction has zero length\n"
            "  give at least one component that is not zero"},
@@ -241,16 +239,16 @@ constexpr Broken kCatalogue[] = {
            "scene.yaml:22:3: joints.pivot: error: the key 'at' is missing\n"
            "  add 'at: ...' here"},
     Broken{"AxisOfSpherical", "type: spherical", "type: spherical, axis: [0, 0, 1]",
-           "scene.yaml:24:27: joints.hold.axis: error: only revolute and prismatic joints have this key\n"
+           "scene.yaml:24:27: joints.hold.axis: error: a spherical joint has no such axis\n"
            "  remove 'axis'"},
-    Broken{"CutPrismatic", "cut: false", "cut: true",
-           "scene.yaml:23:101: joints.slide.cut: error: only spherical and revolute joints can be cut joints "
-           "(got 'true')\n"
-           "  cut the loop at another joint"},
-    Broken{"CutWithMotion", "motion: turn", "motion: turn, cut: true",
-           "scene.yaml:22:90: joints.pivot.motion: error: a cut joint has no coordinate of its own (got "
-           "'turn')\n"
-           "  remove 'motion'"},
+    Broken{"SpeedOfCutJoint", "cut: false", "cut: true",
+           "scene.yaml:23:89: joints.slide.speed: error: a cut joint has no coordinate of its own to start "
+           "from (got '1 m/s')\n"
+           "  remove 'speed'"},
+    Broken{"SteeringByCutJoint", "motion: turn", "motion: turn, cut: true",
+           "scene.yaml:47:43: vehicle.steering.front: error: a steering angle is the coordinate of a revolute "
+           "tree joint (got 'pivot')\n"
+           "  name such a joint"},
     Broken{"MotionAndSpeed", "motion: turn", "motion: turn, speed: 1",
            "scene.yaml:22:103: joints.pivot.speed: error: the motion prescribes the coordinate (got '1')\n"
            "  remove 'speed'"},
@@ -261,15 +259,20 @@ constexpr Broken kCatalogue[] = {
            "scene.yaml:23:89: joints.slide.speed: error: wrong dimension: velocity [m/s] is wanted, this is "
            "angular velocity [rad/s] (got '1 rad/s')\n"
            "  give it in m/s, or in a unit that converts to it"},
-    Broken{"TwoParents", "  slide: {type: prismatic, bodies: [arm, wheel]",
-           "  weld: {type: fixed, bodies: [ground, wheel], at: [0, 0, 0]}\n  slide: {type: prismatic, "
-           "bodies: [arm, wheel]",
-           "scene.yaml:24:3: joints.slide: error: the body 'wheel' is carried by two joints, 'weld' and "
-           "'slide'\n"
-           "  make one of them a cut joint ('cut: true'), or swap its bodies"},
-    Broken{"JointCycle", "bodies: [ground, arm]", "bodies: [wheel, arm]",
-           "scene.yaml:22:3: joints.pivot: error: the tree joints form a cycle: pivot, slide\n"
-           "  make one of them a cut joint ('cut: true')"},
+    Broken{"PinnedLoop", "  slide: {type: prismatic, bodies: [arm, wheel]",
+           "  weld: {type: fixed, bodies: [ground, wheel], at: [0, 0, 0], cut: false}\n"
+           "  brace: {type: fixed, bodies: [ground, arm], at: [0, 0, 0], cut: false}\n"
+           "  slide: {type: prismatic, bodies: [arm, wheel]",
+           "scene.yaml:25:3: joints.slide: error: not all joints with 'cut: false' fit into one tree: slide\n"
+           "  leave one joint of each loop to be cut ('cut: true', or no 'cut')"},
+    Broken{"StartOfALoopJoint", "  slide: {type: prismatic, bodies: [arm, wheel]",
+           "  weld: {type: fixed, bodies: [ground, wheel], at: [0, 0, 0]}\n"
+           "  brace: {type: fixed, bodies: [arm, wheel], at: [0, 0, 0]}\n"
+           "  lever: {type: revolute, bodies: [ground, wheel], at: [0, 0, 0], axis: [0, 0, 1], speed: 1}\n"
+           "  slide: {type: prismatic, bodies: [arm, wheel]",
+           "scene.yaml:25:3: joints.lever: error: the joint closes a loop and has no coordinate of its own to "
+           "start from\n"
+           "  leave out its 'position' and 'speed', or say 'cut: true' at another joint of the loop"},
     Broken{
         "NodeOutOfRange", "{body: beam, node: 1}", "{body: beam, node: 13}",
         "scene.yaml:24:63: joints.hold.bodies[2].node: error: the body 'beam' has no such node (got '13')\n"
@@ -363,7 +366,7 @@ constexpr Broken kCatalogue[] = {
            "this is length [m] (got '5 mm')\n"
            "  give it in rad, or in a unit that converts to it"},
     Broken{"MotionForAngleAndLength", "speed: 1 m/s", "motion: turn",
-           "scene.yaml:46:3: motions.turn: error: revolute and prismatic joints follow the same motion\n"
+           "scene.yaml:46:3: motions.turn: error: an angle and a length follow the same motion\n"
            "  write one motion for each"},
     Broken{"AckermannSide", "side: left", "side: middle",
            "scene.yaml:46:102: motions.turn.ackermann.side: error: not one of the sides (got 'middle')\n"
