@@ -9,9 +9,9 @@
 #include <system_error>
 #include <utility>
 
-#include "core/did_you_mean.h"
 #include "core/error.h"
 #include "core/parameters.h"
+#include "core/resolver.h"
 #include "core/yaml.h"
 #include "core/yaml_parser.h"
 
@@ -115,72 +115,6 @@ class Merger {
   std::vector<Entry> sections_;
   std::map<std::string, std::size_t> section_index_;
   std::vector<Entry> parameters_;
-};
-
-/// Replaces expressions and selections by what they stand for.
-class Resolver {
- public:
-  explicit Resolver(Parameters& parameters) : parameters_(parameters) {}
-
-  /// Nothing when a selection chose an empty branch.
-  YamlNodePtr resolve(const YamlNodePtr& node, const std::string& path) {
-    switch (node->kind) {
-      case Kind::kNull:
-        return node;
-      case Kind::kScalar:
-        return parameters_.evaluate(node, path);
-      case Kind::kSequence:
-        return resolve_list(*node, path);
-      case Kind::kMapping:
-        break;
-    }
-    if (const Entry* select = node->find("select")) return resolve_selection(*node, *select, path);
-    auto resolved = std::make_shared<YamlNode>(*node);
-    resolved->entries.clear();
-    for (const Entry& entry : node->entries) {
-      const YamlNodePtr value = resolve(entry.value, path.empty() ? entry.key : path + "." + entry.key);
-      if (value) resolved->entries.push_back({entry.key, entry.where, value});
-    }
-    return resolved;
-  }
-
- private:
-  YamlNodePtr resolve_list(const YamlNode& node, const std::string& path) {
-    auto resolved = std::make_shared<YamlNode>(node);
-    resolved->items.clear();
-    for (std::size_t i = 0; i < node.items.size(); ++i) {
-      const YamlNodePtr item = resolve(node.items[i], fmt::format("{}[{}]", path, i + 1));
-      if (item) resolved->items.push_back(item);
-    }
-    return resolved;
-  }
-
-  YamlNodePtr resolve_selection(const YamlNode& node, const Entry& select, const std::string& path) {
-    const Value selector(select, path + ".select");
-    const std::string& parameter = selector.text();
-    const YamlNodePtr chosen = parameters_.value(parameter, selector.where());
-    const auto& choices = parameters_.choices(parameter);
-    std::vector<std::string> branches;
-    for (const Entry& entry : node.entries) {
-      if (&entry == &select) continue;
-      branches.push_back(entry.key);
-      if (choices.empty() || std::find(choices.begin(), choices.end(), entry.key) != choices.end()) continue;
-      Source where = entry.where;
-      where.path = path;
-      throw InputError({where.text(),
-                        fmt::format("'{}' is not a choice of the parameter '{}'", entry.key, parameter), "",
-                        did_you_mean(entry.key, choices, "its choices")});
-    }
-    const Entry* branch = chosen->text == "select" ? nullptr : node.find(chosen->text);
-    if (!branch) {
-      selector.refuse(
-          fmt::format("there is no branch for '{}', the value of the parameter", chosen->text),
-          fmt::format("the branches are: {}; add one for '{}'", fmt::join(branches, ", "), chosen->text));
-    }
-    return branch->value->kind == Kind::kNull ? nullptr : resolve(branch->value, path);
-  }
-
-  Parameters& parameters_;
 };
 
 Entry parameters_section(Parameters& parameters) {

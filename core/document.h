@@ -16,7 +16,9 @@ namespace wishbone {
 ///  * a scalar that begins with `=` is replaced by its value;
 ///  * a mapping `{select: PARAMETER, a: ..., b: ...}` is replaced by the branch that the parameter's value
 ///  names; an empty
-///    branch leaves the entry out.
+///    branch leaves the entry out;
+///  * an entry or item `{repeat: {i: [FIRST, LAST]}, ...}` is written once for every i, which its expressions
+///  may use and its texts and keys as `{i}`.
 /// Throws InputError.
 YamlNodePtr load_document(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
 

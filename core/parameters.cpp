@@ -92,10 +92,7 @@ void Parameters::override_from_outside(const std::string& assignment) {
   }
   const std::string name = assignment.substr(0, equals);
   const auto known = parameters_.find(name);
-  if (known == parameters_.end()) {
-    refuse(where, fmt::format("there is no parameter '{}'", name), "",
-           did_you_mean(name, names_, "the parameters"));
-  }
+  if (known == parameters_.end()) refuse_unknown(name, where);
   auto setting = std::make_shared<YamlNode>();
   setting->kind = Kind::kScalar;
   setting->where = where;
@@ -103,12 +100,35 @@ void Parameters::override_from_outside(const std::string& assignment) {
   known->second.setting = setting;
 }
 
+void Parameters::refuse_unknown(const std::string& name, const Source& where) const {
+  std::vector<std::string> names = names_;
+  for (const auto& [counter, _] : counters_) names.push_back(counter);
+  refuse(where, fmt::format("there is no parameter '{}'", name), "",
+         did_you_mean(name, names, "the parameters"));
+}
+
+void Parameters::set_counter(const std::string& name, int value, const Source& where) {
+  check_identifier(name, where, "counter");
+  if (name == "pi") refuse(where, "'pi' is a constant, not a counter", "", "use another name");
+  if (parameters_.contains(name))
+    refuse(where, fmt::format("'{}' is a parameter already", name), "", "use another name for the counter");
+  auto scalar = std::make_shared<YamlNode>();
+  scalar->kind = Kind::kScalar;
+  scalar->where = where;
+  scalar->text = std::to_string(value);
+  counters_[name] = scalar;
+}
+
+const std::vector<std::string>& Parameters::choices(const std::string& name) const {
+  static const std::vector<std::string> kAny;
+  const auto parameter = parameters_.find(name);
+  return parameter == parameters_.end() ? kAny : parameter->second.choices;
+}
+
 YamlNodePtr Parameters::value(const std::string& name, const Source& asked_from) {
+  if (const auto counter = counters_.find(name); counter != counters_.end()) return counter->second;
   const auto found = parameters_.find(name);
-  if (found == parameters_.end()) {
-    refuse(asked_from, fmt::format("there is no parameter '{}'", name), "",
-           did_you_mean(name, names_, "the parameters"));
-  }
+  if (found == parameters_.end()) refuse_unknown(name, asked_from);
   Parameter& parameter = found->second;
   if (parameter.value) return parameter.value;
 

@@ -33,9 +33,14 @@ class Parameters {
   YamlNodePtr value(const std::string& name, const Source& asked_from);
 
   /// Empty when any value is allowed.
-  const std::vector<std::string>& choices(const std::string& name) const {
-    return parameters_.at(name).choices;
-  }
+  const std::vector<std::string>& choices(const std::string& name) const;
+
+  /// Counters are whole numbers that expressions may use like parameters, from set_counter to remove_counter.
+  /// Throws InputError when a new one has no good name or that of a parameter.
+  void set_counter(const std::string& name, int value, const Source& where);
+  void remove_counter(const std::string& name) { counters_.erase(name); }
+  bool has_counters() const { return !counters_.empty(); }
+  bool is_counter(const std::string& name) const { return counters_.contains(name); }
 
   const std::vector<std::string>& names() const { return names_; }
 
@@ -52,8 +57,10 @@ class Parameters {
   void override_from_outside(const std::string& assignment);
   void check(const std::string& name, const Parameter& parameter) const;
   double number(const std::string& name, const Source& asked_from);
+  [[noreturn]] void refuse_unknown(const std::string& name, const Source& where) const;
 
   std::map<std::string, Parameter> parameters_;
+  std::map<std::string, YamlNodePtr> counters_;
   std::vector<std::string> names_;      ///< in the order of declaration
   std::vector<std::string> resolving_;  ///< chain of parameters being evaluated, to find cycles
 };

@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 
@@ -145,12 +146,13 @@ Matrix3 read_inertia(const Value& value) {
       Eigen::SelfAdjointEigenSolver<Matrix3>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
   const std::string shown = fmt::format("its principal values are {:.6g}, {:.6g}, {:.6g} kg m2", principal[0],
                                         principal[1], principal[2]);
-  if (!(principal[0] > 0)) {
-    value.refuse("the inertia must be positive definite: " + shown,
-                 "check the signs of the products of inertia");
+  // point masses and thin rods reach zero, up to rounding
+  constexpr double kRounding = 1e-9;
+  if (!(principal[0] >= -kRounding * std::abs(principal[2]))) {
+    value.refuse("the inertia must not be negative: " + shown, "check the signs of the products of inertia");
   }
   // J1 + J2 - J3 = 2 integral x3^2 dm >= 0; flat bodies reach zero, up to rounding
-  if (principal[0] + principal[1] < (1 - 1e-9) * principal[2]) {
+  if (principal[0] + principal[1] < (1 - kRounding) * principal[2]) {
     value.refuse("no body can have this inertia: " + shown,
                  "the largest must not exceed the sum of the two others");
   }

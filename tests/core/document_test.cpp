@@ -187,6 +187,88 @@ TEST_F(Document, IncludeWithAnImpossibleNameIsRefused) {
               testing::StartsWith("main.yaml:1:10: include: error: there is no such file"));
 }
 
+TEST_F(Document, RepetitionWritesAnEntryForEveryNumber) {
+  const YamlNodePtr root = load(
+      "parameters: {N: 2}\n"
+      "bodies:\n"
+      "  crank_{i}: {repeat: {i: [0, = N]}, at: [= i / 2, 0], next: \"rod_{i + 1}\", number: = i}\n"
+      "  last: {at: [9, 0]}\n");
+  YamlNode sections = *root;
+  sections.entries.erase(sections.entries.begin());  // the parameters
+  EXPECT_EQ(dump_yaml(sections),
+            "bodies:\n"
+            "  crank_0:\n    at: [0, 0]\n    next: \"rod_1\"\n    number: 0\n"
+            "  crank_1:\n    at: [0.5, 0]\n    next: \"rod_2\"\n    number: 1\n"
+            "  crank_2:\n    at: [1, 0]\n    next: \"rod_3\"\n    number: 2\n"
+            "  last:\n    at: [9, 0]\n");
+}
+
+TEST_F(Document, RepetitionsCountInEachOther) {
+  const YamlNodePtr root = load(
+      "grid:\n  p_{i}_{j}: {repeat: {i: [1, 3], j: [1, = i - 1]}, x: = 10*i + j}\n"
+      "nested:\n  a_{i}: {repeat: {i: [1, 2]}, \"b_{j}\": {repeat: {j: [-1, 0]}, x: \"{i}{j}\"}}\n"
+      "none:\n  a_{i}: {repeat: {i: [1, 0]}, x: 1}\n"
+      "list: [{repeat: {i: [1, 2]}, x: = i}, {x: 7}]\n");
+  EXPECT_EQ(dump_yaml(*root),
+            "grid:\n  p_2_1: {x: 21}\n  p_3_1: {x: 31}\n  p_3_2: {x: 32}\n"
+            "nested:\n  a_1:\n    b_-1: {x: \"1-1\"}\n    b_0: {x: \"10\"}\n"
+            "  a_2:\n    b_-1: {x: \"2-1\"}\n    b_0: {x: \"20\"}\n"
+            "none: {}\nlist: [{x: 1}, {x: 2}, {x: 7}]\n");
+}
+
+TEST_F(Document, RepetitionMaySelect) {
+  const YamlNodePtr root = load(
+      "parameters: {kind: {default: a, choices: [a, b]}}\n"
+      "s:\n  x_{i}: {repeat: {i: [0, 2]}, select: i, 0: 5, 1: , 2: {select: kind, a: {v: = i}, b: 1}}\n");
+  EXPECT_EQ(dump_yaml(*root->find("s")->value), "x_0: 5\nx_2: {v: 2}\n");
+}
+
+TEST_F(Document, BracketsOutsideRepetitionsAreText) {
+  EXPECT_EQ(value("t: a {b} c\n", "t"), "a {b} c");
+  EXPECT_EQ(load("s:\n  a_{i}: {x: 1}\n")->find("s")->value->entries[0].key, "a_{i}");
+}
+
+TEST_F(Document, BadRepetitionsAreTold) {
+  EXPECT_EQ(refusal("s:\n  a_{i}: {repeat: 3, x: 1}\n"),
+            "main.yaml:2:19: s.a_{i}.repeat: error: a mapping of counters is wanted here (got '3')\n"
+            "  write 'repeat: {i: [1, 4]}'");
+  EXPECT_EQ(refusal("s:\n  a_{i}: {repeat: {i: [1, 2, 3]}, x: 1}\n"),
+            "main.yaml:2:20: s.a_{i}.repeat.i: error: a counter runs from a first to a last number\n"
+            "  write [first, last], such as [1, 4]");
+  EXPECT_EQ(refusal("parameters: {N: 1.5}\ns:\n  a_{i}: {repeat: {i: [1, = N]}, x: 1}\n"),
+            "main.yaml:3:27: s.a_{i}.repeat.i[2]: error: a whole number from -1000000 to 1000000 is wanted "
+            "here (got '1.5' from '= N')\n  give one of them");
+  EXPECT_EQ(refusal("s:\n  a: {repeat: {i: [1, 2]}, x: 1}\n"),
+            "main.yaml:2:3: s.a: error: the repetition gives the key 'a' twice\n"
+            "  put every counter into the key, as in 'a_{i}'");
+  EXPECT_EQ(refusal("s:\n  a_{i}: {repeat: {i: [1, 2]}, x: \"{i / 2}\"}\n"),
+            "main.yaml:2:35: s.a_1.x: error: '{i / 2}' is no whole number (got '0.5')\n"
+            "  write a counter within the brackets, such as {i} or {i + 1}");
+  EXPECT_EQ(refusal("s:\n  a_{i}: {repeat: {i: [1, 2]}, x: \"b_{i\"}\n"),
+            "main.yaml:2:35: s.a_1.x: error: a '{' is not closed (got 'b_{i')\n"
+            "  within a repetition, write {i} where the counter belongs");
+  EXPECT_EQ(refusal("s:\n  a_{i}: {repeat: {i: [1, 2]}, x: = j}\n"),
+            "main.yaml:2:35: s.a_1.x: error: there is no parameter 'j'\n  the parameters are: i");
+  EXPECT_EQ(refusal("parameters: {i: 1}\ns:\n  a_{i}: {repeat: {i: [1, 2]}, x: 1}\n"),
+            "main.yaml:3:20: s.a_{i}.repeat.i: error: 'i' is a parameter already\n"
+            "  use another name for the counter");
+  EXPECT_EQ(refusal("s:\n  a_{i}: {repeat: {i: [1, 2]}, \"b_{i}\": {repeat: {i: [1, 2]}}}\n"),
+            "main.yaml:2:51: s.a_1.b_{i}.repeat.i: error: 'i' is a counter already\n"
+            "  use another name for the inner one");
+  EXPECT_EQ(refusal("s:\n  a_{1}: {repeat: {1: [1, 2]}, x: 1}\n"),
+            "main.yaml:2:20: s.a_{1}.repeat.1: error: not a name of a counter (got '1')\n"
+            "  use up to 64 letters, digits and '_', beginning with a letter");
+}
+
+TEST_F(Document, RepetitionsCannotRunAway) {
+  constexpr auto kRefusal = "the repetitions make more than 100000 values\n  lower the last number of a counter";
+  EXPECT_THAT(refusal("s:\n  a_{i}: {repeat: {i: [1, 1000000]}, x: 1}\n"), testing::HasSubstr(kRefusal));
+  EXPECT_THAT(refusal("s:\n  a_{i}: {repeat: {i: [1, 1000000], j: [1, 0]}, x: 1}\n"),
+              testing::HasSubstr(kRefusal));
+  EXPECT_THAT(refusal("s:\n  a_{i}_{j}: {repeat: {i: [1, 1000], j: [1, 1000]}, x: 1}\n"),
+              testing::HasSubstr(kRefusal));
+}
+
 TEST_F(Document, DumpReadsBackToItself) {
   const YamlNodePtr root = load(
       "parameters: {v: 36 km/h, kind: hung}\n"
