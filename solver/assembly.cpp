@@ -117,7 +117,9 @@ bool project_positions(const System& system, double tolerance, bool& factored, S
     update_closed_kinematics(system, state, ws);
     const double residual = largest_kept(ws.Phi, factored, ws);
     if (!std::isfinite(residual)) return false;
-    if (residual <= std::max(tolerance, rounding_residual(ws))) return true;
+    // one correction takes the residual to rounding; stopping short of it would leave noise that does not shrink with the
+    // step and that multistep formulas amplify
+    if (residual <= rounding_residual(ws) || (iteration > 0 && residual <= tolerance)) return true;
     if (!factored || residual > kFastConvergence * last) factor(system, ws);
     factored = true;
     last = residual;

@@ -214,6 +214,7 @@ VectorX IdaIntegrator::blame() const {
 
 IdaIntegrator::Counts IdaIntegrator::counts() const {
   Counts n = before_;
+  if (!ida_) return n;
   sundials::add_count(ida_.get(), IDAGetNumSteps, n.steps);
   sundials::add_count(ida_.get(), IDAGetNumResEvals, n.residuals);
   sundials::add_count(ida_.get(), IDAGetNumLinResEvals, n.residuals);

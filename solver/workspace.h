@@ -37,10 +37,11 @@ struct ClosureFactor {
   Eigen::ColPivHouseholderQR<MatrixX> qr;  ///< of U, where Cholesky would lose too many digits
   bool orthogonal = false;                 ///< whether qr is in use
   int rank = 0;            ///< rows that take part, all of them unless they have become dependent
-  double least_sine = 1;   ///< smallest sine of the angle between a row and those before it
+  double least_sine = 1;  ///< smallest length that a row has orthogonal to those before it, by its scale: zero where the rank is lost
   int least_row = -1;      ///< the row it belongs to
-  VectorX lengths;         ///< of the columns of U
-  MatrixX scaled;          ///< U with columns of unit length
+  VectorX scales;   ///< of all rows, what their lengths (columns of U) are measured by; empty: the lengths themselves
+  VectorX lengths;  ///< scales of the kept rows
+  MatrixX scaled;   ///< U with columns divided by them
   VectorX scratch;
   VectorX solution;        ///< multipliers of the kept rows
 };
