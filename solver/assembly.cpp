@@ -38,8 +38,7 @@ double largest_kept(const VectorX& r, bool factored, const Workspace& ws) {
   const ClosureFactor& f = ws.closure;
   double largest = 0;
   for (std::size_t i = 0; i < f.kept.size(); ++i)
-    if (!factored || takes_part(f, static_cast<int>(i)))
-      largest = std::max(largest, std::abs(r[f.kept[i]]));
+    if (!factored || takes_part(f, static_cast<int>(i))) largest = std::max(largest, std::abs(r[f.kept[i]]));
   return largest;
 }
 

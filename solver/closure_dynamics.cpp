@@ -132,7 +132,8 @@ void factor_closures(const System& system, double rank_tolerance, Workspace& ws)
   if (f.scales.size() == 0)
     f.lengths = f.S.diagonal().cwiseSqrt();
   else
-    for (std::size_t i = 0; i < f.kept.size(); ++i) f.lengths[static_cast<Eigen::Index>(i)] = f.scales[f.kept[i]];
+    for (std::size_t i = 0; i < f.kept.size(); ++i)
+      f.lengths[static_cast<Eigen::Index>(i)] = f.scales[f.kept[i]];
   const Eigen::LLT<Eigen::Ref<MatrixX>> llt(f.S);  // in place
   f.rank = static_cast<int>(f.kept.size());
   f.orthogonal = llt.info() != Eigen::Success;

@@ -44,8 +44,8 @@ struct Scheme {
   Method method = Method::automatic;
 };
 
-Benchmark run(const std::string& name, const std::vector<std::string>& overrides, double duration, double interval,
-        double tolerance, Scheme scheme = {}) {
+Benchmark run(const std::string& name, const std::vector<std::string>& overrides, double duration,
+              double interval, double tolerance, Scheme scheme = {}) {
   const auto path = std::filesystem::path(WISHBONE_SCENES) / "benchmarks" / (name + ".yaml");
   CompiledScene compiled = compile(load_scene(path, overrides));
   TransientOptions options;
@@ -64,7 +64,8 @@ Benchmark run(const std::string& name, const std::vector<std::string>& overrides
                                    }
                                  });
   EXPECT_EQ(result.summary.status, TransientSummary::Status::complete)
-      << to_string(scheme.form) << " " << to_string(scheme.method) << " at " << tolerance << ": " << result.summary.message;
+      << to_string(scheme.form) << " " << to_string(scheme.method) << " at " << tolerance << ": "
+      << result.summary.message;
   result.work = ws.work;
   return result;
 }
@@ -72,7 +73,9 @@ Benchmark run(const std::string& name, const std::vector<std::string>& overrides
 TEST(SimplePendulum, FollowsItsEllipticFunction) {
   // IFToMM A01; phi from the downward vertical, -pi/2 at the start, 50-digit Jacobi functions
   const Benchmark r = run("simple_pendulum", {}, 10, 1, 1e-12);
-  const auto phi = [&](std::size_t t) { return r.scalar("/joints/pin/coordinates", t) - std::numbers::pi / 2; };
+  const auto phi = [&](std::size_t t) {
+    return r.scalar("/joints/pin/coordinates", t) - std::numbers::pi / 2;
+  };
   EXPECT_NEAR(phi(1), 1.40502731152479914595842, 1e-9);
   EXPECT_NEAR(phi(5), -1.22945181148538555927776, 1e-9);
   EXPECT_NEAR(phi(10), -2.78680673569982948434767e-01, 1e-9);
@@ -83,7 +86,9 @@ TEST(SimplePendulum, FollowsItsEllipticFunction) {
 TEST(DoublePendulum, FollowsTheQuadruplePrecisionSolution) {
   // absolute angles from the downward vertical; a change of 1e-9 at the start grows 108-fold to 10 s
   const Benchmark r = run("double_pendulum", {}, 10, 1, 1e-12);
-  const auto th1 = [&](std::size_t t) { return std::numbers::pi / 2 + r.scalar("/joints/pin/coordinates", t); };
+  const auto th1 = [&](std::size_t t) {
+    return std::numbers::pi / 2 + r.scalar("/joints/pin/coordinates", t);
+  };
   const auto th2 = [&](std::size_t t) { return th1(t) + r.scalar("/joints/elbow/coordinates", t); };
   const auto near = [](double angle, double reference, double tolerance) {
     EXPECT_NEAR(std::remainder(angle - reference, 2 * std::numbers::pi), 0, tolerance);
@@ -100,7 +105,8 @@ TEST(DoublePendulum, FollowsTheQuadruplePrecisionSolution) {
 TEST(TorqueFreeTop, KeepsItsAttitudeToTheDigitsOfJacobisFunctions) {
   // quaternion w x y z; 24-digit reference
   const auto attitude_error = [](const Benchmark& r, std::size_t row, const Eigen::Vector4d& expected) {
-    const Eigen::Vector4d q = Eigen::Map<const Eigen::Vector4d>(r.signals.at("/bodies/top/orientation")[row].data());
+    const Eigen::Vector4d q =
+        Eigen::Map<const Eigen::Vector4d>(r.signals.at("/bodies/top/orientation")[row].data());
     return std::min((q - expected).norm(), (q + expected).norm());
   };
   const Benchmark generic = run("torque_free_top", {}, 100, 10, 1e-13);
@@ -119,7 +125,9 @@ TEST(TorqueFreeTop, KeepsItsAttitudeToTheDigitsOfJacobisFunctions) {
 TEST(AndrewsSqueezer, ReachesTheReferenceToNineDigits) {
   // test set for IVP solvers II-13; angles at 0.03 s, two integrations in quadruple precision
   const Benchmark r = run("andrews_squeezer", {}, 0.03, 0.03, 1e-12);
-  const auto angle = [&](const char* joint) { return r.scalar(std::string("/joints/") + joint + "/coordinates", 1); };
+  const auto angle = [&](const char* joint) {
+    return r.scalar(std::string("/joints/") + joint + "/coordinates", 1);
+  };
   const double beta0 = -6.171389001427644963589484580e-02, gamma0 = 4.552798191630703802559123824e-01;
   const double phi0 = 2.226683901658858846744731856e-01, delta0 = 4.873649795438425502255989535e-01;
   const double epsilon0 = 1.230547444549821192497350156;
@@ -166,7 +174,7 @@ class FourBars : public testing::TestWithParam<std::pair<int, double>> {};
 TEST_P(FourBars, PassSingularPositionsOnTheBranchOfParallelograms) {
   // IFToMM A02: all cranks turn alike, psi'' = -W sin psi, psi = theta + pi/2 with psi(0) = pi, psi'(0) = -1 (closed form)
   const auto [N, duration] = GetParam();
-  const Benchmark r = run("n_four_bar", {"N=" + std::to_string(N)}, duration, 1, 1e-10);
+  const Benchmark r = run("n_four_bar", {"N=" + std::to_string(N)}, duration, 1, 1e-9);
   const std::map<std::pair<int, int>, double> rate_of_crank = {
       {{1, 4}, -1.13988786970367386522215},  {{1, 10}, -1.96693471944031945632741},
       {{2, 4}, -1.07651118008554302195702},  {{2, 10}, -1.50664218084182946989427},
