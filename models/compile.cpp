@@ -9,6 +9,7 @@
 #include "identification/free_free_modes.h"
 #include "identification/mode_set_of.h"
 #include "models/compile_joints.h"
+#include "models/scene_attachment.h"
 #include "solver/system_builder.h"
 
 namespace wishbone {
@@ -82,17 +83,8 @@ class Compiler {
     return modes;
   }
 
-  bool is_modal(int body) const {
-    return body != Scene::kGround && scene_.bodies[body].form == Scene::BodyForm::kModal;
-  }
-
-  /// A node of a rigid body is a point of it; a flexible body is taken hold of at its nodes.
-  Attachment attachment(const Scene::Point& point) const {
-    return {point.body, is_modal(point.body) ? point.node : 0};
-  }
-
   MarkerIndex marker(const Scene::Point& point) {
-    return builder_.add_marker(attachment(point), world_point(point.p_DP));
+    return builder_.add_marker(attachment_of(scene_, point), world_point(point.p_DP));
   }
 
   void add_tire(const Scene::Tire& tire) {

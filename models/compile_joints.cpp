@@ -3,14 +3,11 @@
 #include <optional>
 #include <string>
 
+#include "models/scene_attachment.h"
 #include "models/scene_tree.h"
 
 namespace wishbone {
 namespace {
-
-bool is_modal(const Scene& scene, int body) {
-  return body != Scene::kGround && scene.bodies[body].form == Scene::BodyForm::kModal;
-}
 
 /// Whether the tree joint itself follows its motion, so that no unknown is left.
 bool is_prescribed(const Scene::Joint& joint) {
@@ -39,13 +36,8 @@ int JointCompiler::carried_body(int joint) const {
   return tree_.roles[joint] == JointRole::carries_first ? j.first.body : j.second.body;
 }
 
-/// A node of a rigid body is a point of it; a flexible body is taken hold of at its nodes.
-Attachment JointCompiler::attachment(const Scene::Point& point) const {
-  return {point.body, is_modal(scene_, point.body) ? point.node : 0};
-}
-
 MarkerIndex JointCompiler::marker(const Scene::Point& point, const Matrix3& R_DM) {
-  return builder_.add_marker(attachment(point), scene_.X_WD * point.p_DP, scene_.X_WD.R * R_DM);
+  return builder_.add_marker(attachment_of(scene_, point), scene_.X_WD * point.p_DP, scene_.X_WD.R * R_DM);
 }
 
 /// Axes of the second-named body in D; those of D for the ground.
@@ -142,7 +134,7 @@ void JointCompiler::add_to_tree(int index, bool forward) {
   const int child = forward ? joint.second.body : joint.first.body;
   const TreeJoint tree = tree_joint(joint);
   const auto weights = std::vector<double>(speed_count(tree), joint.weight);
-  builder_.add_joint(joint.name, attachment(parent), child, scene_.X_WD * parent.p_DP,
+  builder_.add_joint(joint.name, attachment_of(scene_, parent), child, scene_.X_WD * parent.p_DP,
                      forward ? tree : reverse(tree), {joint.position, joint.speed, weights}, !forward);
   if (is_prescribed(joint)) return;
   for (std::size_t i = 0; i < joint.motion.size(); ++i)

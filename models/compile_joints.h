@@ -25,7 +25,6 @@ class JointCompiler {
   int carried_body(int joint) const;
 
  private:
-  Attachment attachment(const Scene::Point& point) const;
   MarkerIndex marker(const Scene::Point& point, const Matrix3& R_DM);
   std::pair<MarkerIndex, MarkerIndex> markers(int joint);
   Matrix3 second_axes(const Scene::Joint& joint) const;

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "core/error.h"
 #include "solver/articulated_body.h"
@@ -222,17 +221,14 @@ AssemblyReport assemble(const System& system, State& state, Workspace& ws) {
 
   const VectorX q0 = state.q;
   ws.stiffening = system.assembly_weights;
-  std::vector<int> all(system.n_rows);
-  std::iota(all.begin(), all.end(), 0);
-  keep_rows(all, system, ws);
+  keep_rows(all_rows(system), system, ws);
   report.gaps = closure_gaps(system, ws);
   report.position_iterations = close_loops(system, state, ws);
   if (!(ws.Phi.cwiseAbs().maxCoeff() <= kContradictionTolerance)) fail_open(system, ws);
 
   factor_inertia(system, ws);
   const std::vector<int> independent = find_independent_rows(system, ws);
-  std::set_difference(all.begin(), all.end(), independent.begin(), independent.end(),
-                      std::back_inserter(report.redundant_rows));
+  report.redundant_rows = redundant_rows(system, independent);
   keep_rows(independent, system, ws);
   if (report.position_iterations > 1) approach(system, q0, state, ws);
 

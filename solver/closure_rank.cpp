@@ -1,9 +1,8 @@
 #include "solver/closure_rank.h"
 
-#include <Eigen/Cholesky>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "solver/articulated_body.h"
 #include "solver/closure_dynamics.h"
@@ -20,12 +19,6 @@ constexpr double kWeakSine = 0.05;
 constexpr double kWorthwhile = 5;
 /// A redundant row that opens faster than this has become independent [m/s, rad/s].
 constexpr double kOpeningRate = 1e-6;
-
-std::vector<int> all_rows(const System& system) {
-  std::vector<int> rows(system.n_rows);
-  std::iota(rows.begin(), rows.end(), 0);
-  return rows;
-}
 
 /// Lengths that the columns of U would have if the sides of a closure moved independently: what rounding is to be
 /// measured by where both sides move alike and the column vanishes. Rows have the length 1/sqrt(inertia that a force along
@@ -68,15 +61,9 @@ std::vector<int> find_better_rows(const System& system, Workspace& ws) {
 }
 
 bool redundant_row_opens(const System& system, const Workspace& ws) {
-  std::size_t next = 0;
-  for (int row = 0; row < system.n_rows; ++row) {
-    if (next < ws.closure.kept.size() && ws.closure.kept[next] == row) {
-      ++next;
-    } else if (std::abs(ws.Phi_rate[row]) > kOpeningRate) {
-      return true;
-    }
-  }
-  return false;
+  const std::vector<int> redundant = redundant_rows(system, ws.closure.kept);
+  return std::any_of(redundant.begin(), redundant.end(),
+                     [&](int row) { return std::abs(ws.Phi_rate[row]) > kOpeningRate; });
 }
 
 }  // namespace
@@ -124,13 +111,11 @@ RowRevision revise_rows(const System& system, const State& state, Workspace& ws)
 MatrixX closure_self_stresses(const System& system, Workspace& ws) {
   const std::vector<int> kept = ws.closure.kept;
   const auto n = static_cast<Eigen::Index>(kept.size());
-  std::vector<int> redundant;
-  const std::vector<int> all = all_rows(system);
-  std::set_difference(all.begin(), all.end(), kept.begin(), kept.end(), std::back_inserter(redundant));
+  const std::vector<int> redundant = redundant_rows(system, kept);
   if (redundant.empty()) return MatrixX(system.n_rows, 0);
 
   const VectorX lambda = ws.lambda;
-  keep_rows(all, system, ws);
+  keep_rows(all_rows(system), system, ws);
   calc_closure_factor(system, ws);
   MatrixX U_kept(system.nv, n);
   for (Eigen::Index i = 0; i < n; ++i) U_kept.col(i) = ws.closure.U.col(kept[i]);

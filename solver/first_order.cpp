@@ -48,8 +48,7 @@ FirstOrderSystem::FirstOrderSystem(const System& system, Workspace& ws, Eigen::I
       size_(size),
       state_(sized_state(system)),
       weight_(system.total_mass() * kStandardGravity),
-      needs_joint_forces_(has_prescribed_motion(system)),
-      q_rate_(VectorX::Zero(system.nq)) {}
+      needs_joint_forces_(has_prescribed_motion(system)) {}
 
 void FirstOrderSystem::pack(const State& state, const Work& work, Eigen::Ref<VectorX> y) {
   y.head(system_.nq) = state.q;

@@ -89,7 +89,6 @@ class FirstOrderSystem {
  private:
   double weight_;  // of all bodies under standard gravity [N]
   bool needs_joint_forces_;
-  VectorX q_rate_;
   std::unique_ptr<Tangents> tangents_;
   std::unique_ptr<Directions> directions_;  // one along every entry of (q, v, x)
   std::unique_ptr<MotionDerivatives> derivatives_;

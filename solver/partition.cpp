@@ -104,8 +104,7 @@ void PartitionedSystem::choose(const State& state) {
   factor_inertia(system_, ws_);
   calc_closure_jacobian();
   // columns in the metric of kinetic energy: a speed counts by the inertia that moves with it
-  VectorX scale(system_.nv);
-  for (int i = 0; i < system_.nv; ++i) scale[i] = 1;
+  VectorX scale = VectorX::Ones(system_.nv);
   for (std::size_t b = 0; b < system_.bodies.size(); ++b)
     for (int i = 0; i < system_.bodies[b].nv; ++i)
       scale[system_.bodies[b].v_start + i] =
@@ -199,11 +198,10 @@ void PartitionedSystem::calc_rate(double t, const Eigen::Ref<const VectorX>& y, 
 
 /// Directions of (q, v, x) along every independent displacement, every independent speed and every state x.
 void PartitionedSystem::set_directions(const State& state) {
-  const auto depend = [&](VectorX& along, Eigen::Index k, const VectorX& residual) {
-    for (int i = 0; i < n_dependent_; ++i) residual_[i] = residual[i];
-    residual_ = lu_.solve(residual_);
+  // the dependent entries that undo a residual of the kept rows
+  const auto depend = [&](VectorX& along, const VectorX& residual) {
+    residual_ = lu_.solve(residual);
     for (int j = 0; j < n_dependent_; ++j) along[dependent_[j]] = -residual_[j];
-    (void)k;
   };
   VectorX along(system_.nv), xi(system_.nv);
   calc_closure_jacobian();
@@ -214,7 +212,7 @@ void PartitionedSystem::set_directions(const State& state) {
     along.setZero();
     along[independent_[i]] = 1;
     calc_speeds(along, xi);
-    depend(along, i, D_ * xi);
+    depend(along, D_ * xi);
     d_directions_.col(i) = along;
     calc_speeds(along, xi);
     calc_q_rate<double>(system_, state.q, xi, directions_.q.col(i).data());
@@ -227,11 +225,11 @@ void PartitionedSystem::set_directions(const State& state) {
   for (int i = 0; i < n_independent_; ++i) {
     for (int j = 0; j < n_dependent_; ++j) kept[j] = Phi_rate_(ws_.closure.kept[j], i);
     along.setZero();
-    depend(along, i, kept);
+    depend(along, kept);
     directions_.v.col(i) = along;
     along.setZero();
     along[independent_[i]] = 1;
-    depend(along, i, D_ * along);
+    depend(along, D_ * along);
     directions_.v.col(n_independent_ + i) = along;
   }
 }

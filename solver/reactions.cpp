@@ -52,14 +52,10 @@ VectorX stack_reactions(const System& system, const std::vector<int>& bodies, co
   return all;
 }
 
-void scale_joint_forces(double factor, Workspace& ws) {
-  for (BodyMotion& s : ws.bodies) s.F_joint *= factor;
-}
-
 /// What multipliers alone leave in the tree joints: D^T n at rest.
 void set_joint_forces_of(const System& system, const VectorX& n, Workspace& ws) {
   calc_closure_force<double>(system, n, ws, ws.hinge_force.data());
-  scale_joint_forces(-1, ws);  // the joint holds what the closures pull at
+  for (BodyMotion& s : ws.bodies) s.F_joint = -s.F_joint;  // the joint holds what the closures pull at
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "solver/workspace.h"
 
+#include <algorithm>
+#include <iterator>
 #include <numeric>
 
 #include "core/dual.h"
@@ -43,9 +45,20 @@ Workspace::Workspace(const System& system)
     condensed.push_back({body.carries_joints ? MatrixX(MatrixX::Identity(m, m)) : MatrixX(),
                          MatrixX::Zero(m, 6), Matrix3X::Zero(3, m)});
   }
-  std::vector<int> all(system.n_rows);
-  std::iota(all.begin(), all.end(), 0);
-  keep_rows(all, system, *this);
+  keep_rows(all_rows(system), system, *this);
+}
+
+std::vector<int> all_rows(const System& system) {
+  std::vector<int> rows(system.n_rows);
+  std::iota(rows.begin(), rows.end(), 0);
+  return rows;
+}
+
+std::vector<int> redundant_rows(const System& system, const std::vector<int>& kept) {
+  const std::vector<int> all = all_rows(system);
+  std::vector<int> redundant;
+  std::set_difference(all.begin(), all.end(), kept.begin(), kept.end(), std::back_inserter(redundant));
+  return redundant;
 }
 
 void keep_rows(const std::vector<int>& rows, const System& system, Workspace& ws) {

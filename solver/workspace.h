@@ -19,7 +19,7 @@ struct ArticulatedBody {
 struct CondensedModes {
   MatrixX
       M_zz;  ///< modal mass: identity plus what hangs on the nodes; then its Cholesky factor (lower triangle). Empty when
-      ///< no joint hangs on the nodes
+  ///< no joint hangs on the nodes
   MatrixX Y;       ///< L_z^-1 M_zr, m x 6
   Matrix3X P_Psi;  ///< scratch: a child's P+ times the shapes of its node
 };
@@ -66,6 +66,11 @@ struct Workspace : Evaluation<double> {
 
   WorkCounters work;
 };
+
+/// All closure rows, ascending.
+std::vector<int> all_rows(const System& system);
+/// Those that are not among `kept` (ascending).
+std::vector<int> redundant_rows(const System& system, const std::vector<int>& kept);
 
 /// Makes `rows` (ascending) the closure rows that are solved for.
 void keep_rows(const std::vector<int>& rows, const System& system, Workspace& ws);
