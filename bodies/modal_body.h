@@ -13,15 +13,15 @@ namespace wishbone {
 template <class T>
 struct ModalBodyStateT {
   // Position stage, written by set_position().
-  VectorXT<T> z;                    ///< m, modal coordinates [m sqrt(kg)]
-  Matrix3XT<T> interface_b;         ///< 3 x k, p_BoP of each interface node [m]
+  VectorXT<T> z;                        ///< m, modal coordinates [m sqrt(kg)]
+  Matrix3XT<T> interface_b;             ///< 3 x k, p_BoP of each interface node [m]
   Matrix3T<T> J = Matrix3T<T>::Zero();  ///< inertia about Bo of the deformed body, -sum m_i b_i~ b_i~ [kg m2]
-  Matrix3XT<T> S;                   ///< 3 x m, sum m_i delta_i~ Psi_i [m sqrt(kg)]
+  Matrix3XT<T> S;                       ///< 3 x m, sum m_i delta_i~ Psi_i [m sqrt(kg)]
 
   // Velocity stage, written by set_velocity().
-  VectorXT<T> zdot;                      ///< m [m sqrt(kg)/s]
-  Vector3T<T> w_B = Vector3T<T>::Zero();     ///< angular velocity of the body axes [rad/s]
-  Matrix3XT<T> interface_delta_dot;      ///< 3 x k, velocity in the body axes of each interface node [m/s]
+  VectorXT<T> zdot;                       ///< m [m sqrt(kg)/s]
+  Vector3T<T> w_B = Vector3T<T>::Zero();  ///< angular velocity of the body axes [rad/s]
+  Matrix3XT<T> interface_delta_dot;       ///< 3 x k, velocity in the body axes of each interface node [m/s]
   Vector3T<T> t_bias = Vector3T<T>::Zero();  ///< w x (J w) + 2 sum m_i b_i x (w x delta_i') [N m]
   VectorXT<T> h_bias;  ///< m, sum m_i Psi_i^T (w x (w x b_i) + 2 w x delta_i') + 2 zeta omega z' + omega^2 z
 
@@ -96,7 +96,7 @@ class ModalBody {
   double mass_ = 0;
   std::vector<Matrix3X> interface_shapes_;
   VectorX inverse_root_mass_;    ///< k, 1/sqrt(m_i) of the interface nodes
-  ModalBodyState::Points s_;  ///< p x 3, sqrt(m_i) s_i: the interface nodes first, then the other points
+  ModalBodyState::Points s_;     ///< p x 3, sqrt(m_i) s_i: the interface nodes first, then the other points
   MatrixX shapes_;               ///< 3p x m, sqrt(m_i) Psi_i: all x rows, then all y rows, then all z rows
   VectorX damping_, stiffness_;  ///< m, 2 zeta omega and omega^2
 };

@@ -24,9 +24,10 @@ enum class JointKind {
 /// A coordinate of a joint, in the frame of the joint: z its axis (of a universal joint x the first and y the second axis,
 /// of a planar one z the normal).
 struct JointCoordinateKind {
-  std::string_view name;    ///< "angle", "travel" ...
-  bool is_angle = true;     ///< [rad] rather than [m]
-  bool measurable = true;   ///< whether `gauge` measures it, so that forces, couplings and drivers can act on it
+  std::string_view name;  ///< "angle", "travel" ...
+  bool is_angle = true;   ///< [rad] rather than [m]
+  bool measurable =
+      true;  ///< whether `gauge` measures it, so that forces, couplings and drivers can act on it
   Gauge gauge;
 };
 

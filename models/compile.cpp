@@ -38,7 +38,9 @@ void set_damping(const Scene::Body& body, ModeSet& modes) {
 /// One scene on its way into a SystemBuilder.
 class Compiler {
  public:
-  explicit Compiler(const Scene& scene) : scene_(scene), joints_(scene, builder_) { builder_.gravity = scene.gravity; }
+  explicit Compiler(const Scene& scene) : scene_(scene), joints_(scene, builder_) {
+    builder_.gravity = scene.gravity;
+  }
 
   CompiledScene compile() && {
     for (const Scene::Body& body : scene_.bodies) add_body(body);
@@ -126,9 +128,8 @@ class Compiler {
     if (!scene_.vehicle) return options;
     options.chassis = builder_.built_index(scene_.vehicle->chassis);
     for (const Scene::SteeringAngle& steering : scene_.vehicle->steering)
-      options.steering.push_back(
-          {steering.name, builder_.built_index(joints_.carried_body(steering.joint)),
-           scene_.joints[steering.joint].R_DJ(2, 2) < 0 ? -1.0 : 1.0});
+      options.steering.push_back({steering.name, builder_.built_index(joints_.carried_body(steering.joint)),
+                                  scene_.joints[steering.joint].R_DJ(2, 2) < 0 ? -1.0 : 1.0});
     return options;
   }
 

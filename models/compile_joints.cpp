@@ -59,8 +59,8 @@ std::pair<MarkerIndex, MarkerIndex> JointCompiler::markers(int joint) {
   if (known != markers_.end()) return known->second;
   const Scene::Joint& j = scene_.joints[joint];
   Matrix3 R_DM = j.R_DJ;
-  if (!has_axes(j.kind)) R_DM = j.first.body == Scene::kGround ? Matrix3(Matrix3::Identity())
-                                                                : scene_.bodies[j.first.body].X_DB.R;
+  if (!has_axes(j.kind))
+    R_DM = j.first.body == Scene::kGround ? Matrix3(Matrix3::Identity()) : scene_.bodies[j.first.body].X_DB.R;
   const MarkerIndex A = marker(j.first, R_DM);
   const MarkerIndex B = marker(j.second, R_DM);
   return markers_[joint] = {A, B};
@@ -72,9 +72,9 @@ Motion JointCompiler::motion(int index) const {
   for (const Scene::MotionStep& s : motion.steps) steps.push_back({s.time, s.duration, s.change});
   std::optional<Ackermann> ackermann;
   if (motion.ackermann)
-    ackermann =
-        Ackermann{motion.ackermann->wheelbase, motion.ackermann->track,
-                  motion.ackermann->side == Scene::Side::kLeft ? Ackermann::Side::kLeft : Ackermann::Side::kRight};
+    ackermann = Ackermann{
+        motion.ackermann->wheelbase, motion.ackermann->track,
+        motion.ackermann->side == Scene::Side::kLeft ? Ackermann::Side::kLeft : Ackermann::Side::kRight};
   return {"motion '" + motion.name + "'", motion.start, std::move(steps), ackermann};
 }
 
@@ -168,9 +168,10 @@ void JointCompiler::drive(int index, std::size_t coordinate) {
   const Scene::Joint& joint = scene_.joints[index];
   const std::string name = coordinate_path(joint, coordinate, "drive");
   const auto [A, B] = markers(index);
-  builder_.add_closure(name, A, B,
-                       DrivenClosure("joint '" + joint.name + "'", info(joint.kind).coordinates[coordinate].gauge,
-                                     motion(joint.motion[coordinate])));
+  builder_.add_closure(
+      name, A, B,
+      DrivenClosure("joint '" + joint.name + "'", info(joint.kind).coordinates[coordinate].gauge,
+                    motion(joint.motion[coordinate])));
 }
 
 void JointCompiler::add_forces(int index) {
@@ -184,12 +185,12 @@ void JointCompiler::add_forces(int index) {
   for (const Scene::CoordinateFriction& f : joint.frictions) {
     std::optional<StribeckPeak> peak;
     if (f.peak) peak = StribeckPeak{*f.peak, f.peak_rate};
-    builder_.add_force(JointFriction(coordinate_path(joint, f.coordinate, "friction"), A, B, gauge(f.coordinate),
-                                     f.coulomb, f.smoothing, f.viscous, peak));
+    builder_.add_force(JointFriction(coordinate_path(joint, f.coordinate, "friction"), A, B,
+                                     gauge(f.coordinate), f.coulomb, f.smoothing, f.viscous, peak));
   }
   for (const Scene::CoordinateLimit& l : joint.limits)
-    builder_.add_force(JointLimit(coordinate_path(joint, l.coordinate, "limit"), A, B, gauge(l.coordinate), l.lower,
-                                  l.upper, {l.stiffness, l.exponent, l.damping}));
+    builder_.add_force(JointLimit(coordinate_path(joint, l.coordinate, "limit"), A, B, gauge(l.coordinate),
+                                  l.lower, l.upper, {l.stiffness, l.exponent, l.damping}));
 }
 
 void JointCompiler::add_joints() {
@@ -212,8 +213,9 @@ void JointCompiler::add_coupling(const Scene::Closure& closure) {
     const JointKindInfo& kind = info(scene_.joints[term.of.joint].kind);
     terms.push_back({kind.coordinates[term.of.coordinate].gauge, term.factor});
   }
-  builder_.add_closure(closure.name, std::move(participants),
-                       CouplingClosure("coupling '" + closure.name + "'", std::move(terms), closure.constant));
+  builder_.add_closure(
+      closure.name, std::move(participants),
+      CouplingClosure("coupling '" + closure.name + "'", std::move(terms), closure.constant));
 }
 
 void JointCompiler::add_closures() {
@@ -234,9 +236,9 @@ void JointCompiler::add_closures() {
     else if (closure.motion >= 0)
       builder_.add_closure(closure.name, A, B, DistanceClosure(element, motion(closure.motion)));
     else
-      builder_.add_closure(closure.name, A, B,
-                           DistanceClosure(element, closure.length.value_or(
-                                                        (closure.to.p_DP - closure.from.p_DP).norm())));
+      builder_.add_closure(
+          closure.name, A, B,
+          DistanceClosure(element, closure.length.value_or((closure.to.p_DP - closure.from.p_DP).norm())));
   }
 }
 

@@ -26,7 +26,8 @@ void read_distance(const Value& value, const std::vector<std::string>& motion_na
   if (const auto length = keys.optional("length")) closure.length = length->positive(kLength);
   constexpr double kShortest = 1e-9;
   if (!closure.length && !((closure.from.p_DP - closure.to.p_DP).norm() > kShortest))
-    value.refuse("the points coincide in the design pose", "join them by a spherical joint, or give 'length'");
+    value.refuse("the points coincide in the design pose",
+                 "join them by a spherical joint, or give 'length'");
 }
 
 void read_guided_point(const Value& value, const Scene& scene, Scene::Closure& closure) {
@@ -66,8 +67,8 @@ Scene::Closure read_closure(const std::string& name, const Value& value,
   closure.name = name;
   closure.where = value.where();
   enum class Word { distance, line, plane, coupling, gear, rack };
-  const Mapping any(value, {"type", "from", "to", "length", "motion", "direction", "terms", "constant", "driver",
-                            "driven", "ratio", "radius"});
+  const Mapping any(value, {"type", "from", "to", "length", "motion", "direction", "terms", "constant",
+                            "driver", "driven", "ratio", "radius"});
   switch (any.required("type").choice<Word>({{"distance", Word::distance},
                                              {"point_on_line", Word::line},
                                              {"point_on_plane", Word::plane},
@@ -117,7 +118,8 @@ Scene::JointCoordinate read_joint_coordinate(const Mapping& keys, const Scene& s
   if (!which && coordinates.size() == 1) return {joint, 0};
   std::vector<std::string> names;
   for (const JointCoordinateKind& coordinate : coordinates) names.emplace_back(coordinate.name);
-  return {joint, index_of(names, which ? *which : keys.required("coordinate"), "the coordinates of the joint")};
+  return {joint,
+          index_of(names, which ? *which : keys.required("coordinate"), "the coordinates of the joint")};
 }
 
 void read_closures(const Value& section, const std::vector<std::string>& motion_names, Scene& scene) {

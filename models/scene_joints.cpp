@@ -67,9 +67,9 @@ void place(const Mapping& keys, Side& first, Side& second) {
   const auto at = keys.optional("at");
   const auto disagrees = [](const Vector3& a, const Vector3& b) { return !((a - b).norm() <= kCoincidence); };
   if (!at && first.point.node == 0 && second.point.node == 0) keys.required("at");  // which is missing
-  const Vector3 p_DP = at                       ? at->vector3(kLength)
+  const Vector3 p_DP = at                      ? at->vector3(kLength)
                        : first.point.node != 0 ? first.point.p_DP
-                                                : second.point.p_DP;
+                                               : second.point.p_DP;
   for (Side* side : {&first, &second}) {
     if (side->point.node == 0) {
       side->point.p_DP = p_DP;
@@ -201,9 +201,8 @@ Scene::CoordinateLimit read_limit(int i, const Value& value, const JointCoordina
 void read_forces(const Mapping& keys, const JointKindInfo& kind, Scene::Joint& joint) {
   const auto each = [&](std::string_view key, auto read, auto& list) {
     if (const auto value = keys.optional(key))
-      for_each_coordinate(*value, kind, [&](int i, const Value& own) {
-        list.push_back(read(i, own, kind.coordinates[i]));
-      });
+      for_each_coordinate(
+          *value, kind, [&](int i, const Value& own) { list.push_back(read(i, own, kind.coordinates[i])); });
   };
   each("spring", read_spring, joint.springs);
   each("friction", read_friction, joint.frictions);
@@ -253,8 +252,8 @@ void read_axes(const Mapping& keys, Scene::Joint& joint) {
 
 Scene::Joint read_joint(const std::string& name, const Value& value,
                         const std::vector<std::string>& motion_names, const Scene& scene) {
-  const Mapping keys(value, {"type", "bodies", "at", "axis", "second_axis", "pitch", "cut", "position", "speed",
-                             "motion", "assembly_weight", "spring", "friction", "limits"});
+  const Mapping keys(value, {"type", "bodies", "at", "axis", "second_axis", "pitch", "cut", "position",
+                             "speed", "motion", "assembly_weight", "spring", "friction", "limits"});
   Scene::Joint joint;
   joint.name = name;
   joint.where = value.where();
@@ -311,9 +310,10 @@ void check_topology(const Scene& scene) {
     std::vector<std::string> names;
     for (const int j : tree.impossible) names.push_back(scene.joints[static_cast<std::size_t>(j)].name);
     const Scene::Joint& joint = scene.joints[static_cast<std::size_t>(tree.impossible.front())];
-    throw InputError({joint.where.text(),
-                      fmt::format("not all joints with 'cut: false' fit into one tree: {}", fmt::join(names, ", ")),
-                      "", "leave one joint of each loop to be cut ('cut: true', or no 'cut')"});
+    throw InputError(
+        {joint.where.text(),
+         fmt::format("not all joints with 'cut: false' fit into one tree: {}", fmt::join(names, ", ")), "",
+         "leave one joint of each loop to be cut ('cut: true', or no 'cut')"});
   }
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const Scene::Body& body = scene.bodies[b];
@@ -327,13 +327,13 @@ void check_topology(const Scene& scene) {
   for (std::size_t j = 0; j < scene.joints.size(); ++j) {
     const Scene::Joint& joint = scene.joints[j];
     if (joint.kind == JointKind::free && tree.roles[j] == JointRole::carries_first)
-      throw InputError({joint.where.text(), "a free joint carries its second-named body", "",
-                        "exchange the two bodies"});
+      throw InputError(
+          {joint.where.text(), "a free joint carries its second-named body", "", "exchange the two bodies"});
     const bool starts = !joint.position.empty() || !joint.speed.empty();
     if (!starts || tree.roles[j] != JointRole::closes) continue;
-    throw InputError({joint.where.text(),
-                      "the joint closes a loop and has no coordinate of its own to start from", "",
-                      "leave out its 'position' and 'speed', or say 'cut: true' at another joint of the loop"});
+    throw InputError(
+        {joint.where.text(), "the joint closes a loop and has no coordinate of its own to start from", "",
+         "leave out its 'position' and 'speed', or say 'cut: true' at another joint of the loop"});
   }
 }
 

@@ -43,8 +43,8 @@ Scene load_scene(const std::filesystem::path& path, const std::vector<std::strin
   const YamlNodePtr document = load_document(path, overrides);
   const Mapping root(
       Value(document, document->where),
-      {"wishbone", "title", "parameters", "gravity", "placement", "bodies", "joints", "closures", "springs", "loads",
-       "tire_models", "tires", "road", "motions", "vehicle", "analysis", "output"});
+      {"wishbone", "title", "parameters", "gravity", "placement", "bodies", "joints", "closures", "springs",
+       "loads", "tire_models", "tires", "road", "motions", "vehicle", "analysis", "output"});
   Scene scene;
   scene.text = dump_yaml(*document);
   read_header(root, scene);

@@ -36,7 +36,8 @@ class Prim {
     for (;;) {
       int best = -1;
       for (std::size_t j = 0; j < joints_.size(); ++j)
-        if (crosses(joints_[j]) && (best < 0 || better(static_cast<int>(j), best))) best = static_cast<int>(j);
+        if (crosses(joints_[j]) && (best < 0 || better(static_cast<int>(j), best)))
+          best = static_cast<int>(j);
       if (best < 0) return;
       const GraphJoint& joint = joints_[best];
       const bool forward = reached(joint.first);

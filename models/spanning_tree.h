@@ -9,9 +9,9 @@ namespace wishbone {
 /// A joint as an edge between two bodies; -1 is the ground.
 struct GraphJoint {
   int first = -1, second = -1;
-  int closure_rows = 0;       ///< what it costs where it closes a loop
-  std::optional<bool> cut;    ///< pinned by the user; empty: free to choose
-  bool preferred = false;     ///< has initial values of its own, which a cut joint cannot take
+  int closure_rows = 0;     ///< what it costs where it closes a loop
+  std::optional<bool> cut;  ///< pinned by the user; empty: free to choose
+  bool preferred = false;   ///< has initial values of its own, which a cut joint cannot take
 };
 
 /// A body as a node.

@@ -187,7 +187,8 @@ void factor_inertia(const System& system, Workspace& ws) {
     const TreeBody& body = system.bodies[i];
     const int k = body.flexible;
     if (k >= 0)
-      set_own_inertia(system.flexible[k], ws.bodies[i], ws.flexible[k].modal, ws.articulated[i], ws.condensed[k]);
+      set_own_inertia(system.flexible[k], ws.bodies[i], ws.flexible[k].modal, ws.articulated[i],
+                      ws.condensed[k]);
     else
       set_own_inertia(body, ws.bodies[i], ws.articulated[i]);
   }
@@ -235,8 +236,7 @@ void calc_bias(const System& system, Terms terms, Workspace& ws) {
     if (body.parent_node >= 0) {
       const FlexibleBody& parent = system.flexible[system.bodies[body.parent].flexible];
       const Vector3 f_P = ws.bodies[body.parent].X_WB.R.transpose() * linear(Z_plus);
-      modal_part(parent, ws.e).noalias() -=
-          parent.modal.interface_shape(body.parent_node).transpose() * f_P;
+      modal_part(parent, ws.e).noalias() -= parent.modal.interface_shape(body.parent_node).transpose() * f_P;
     }
   }
 }

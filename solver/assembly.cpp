@@ -38,8 +38,7 @@ double largest_kept(const VectorX& r, bool factored, const Workspace& ws) {
   const ClosureFactor& f = ws.closure;
   double largest = 0;
   for (std::size_t i = 0; i < f.kept.size(); ++i)
-    if (!factored || takes_part(f, static_cast<int>(i)))
-      largest = std::max(largest, std::abs(r[f.kept[i]]));
+    if (!factored || takes_part(f, static_cast<int>(i))) largest = std::max(largest, std::abs(r[f.kept[i]]));
   return largest;
 }
 
@@ -117,7 +116,9 @@ bool project_positions(const System& system, double tolerance, bool& factored, S
     update_closed_kinematics(system, state, ws);
     const double residual = largest_kept(ws.Phi, factored, ws);
     if (!std::isfinite(residual)) return false;
-    if (residual <= std::max(tolerance, rounding_residual(ws))) return true;
+    // one correction takes the residual to rounding; stopping short of it would leave noise that does not shrink with the
+    // step and that multistep formulas amplify
+    if (residual <= rounding_residual(ws) || (iteration > 0 && residual <= tolerance)) return true;
     if (!factored || residual > kFastConvergence * last) factor(system, ws);
     factored = true;
     last = residual;

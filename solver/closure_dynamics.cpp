@@ -97,7 +97,7 @@ void find_least_sine(ClosureFactor& f) {
   }
 }
 
-/// QR of U with columns scaled to unit length and pivoted.
+/// QR of U with scaled columns and pivoted.
 void factor_orthogonally(double rank_tolerance, ClosureFactor& f) {
   f.scaled = f.U * f.lengths.cwiseInverse().asDiagonal();
   f.qr.compute(f.scaled);
@@ -129,7 +129,11 @@ void factor_closures(const System& system, double rank_tolerance, Workspace& ws)
   calc_closure_factor(system, ws);
   f.S.setZero();
   f.S.selfadjointView<Eigen::Lower>().rankUpdate(f.U.transpose());
-  f.lengths = f.S.diagonal().cwiseSqrt();
+  if (f.scales.size() == 0)
+    f.lengths = f.S.diagonal().cwiseSqrt();
+  else
+    for (std::size_t i = 0; i < f.kept.size(); ++i)
+      f.lengths[static_cast<Eigen::Index>(i)] = f.scales[f.kept[i]];
   const Eigen::LLT<Eigen::Ref<MatrixX>> llt(f.S);  // in place
   f.rank = static_cast<int>(f.kept.size());
   f.orthogonal = llt.info() != Eigen::Success;

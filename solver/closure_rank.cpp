@@ -57,8 +57,7 @@ std::vector<int> find_better_rows(const System& system, Workspace& ws) {
   const double sine = ws.closure.least_sine;
   keep_rows(all_rows(system), system, ws);
   calc_closure_factor(system, ws);
-  const VectorX lengths = ws.closure.U.colwise().norm().transpose().cwiseMax(1e-300);
-  const Eigen::ColPivHouseholderQR<MatrixX> qr(ws.closure.U * lengths.cwiseInverse().asDiagonal());
+  const Eigen::ColPivHouseholderQR<MatrixX> qr(ws.closure.U * ws.closure.scales.cwiseInverse().asDiagonal());
   const auto n = static_cast<Eigen::Index>(kept.size());
   const double best = std::abs(qr.matrixQR()(n - 1, n - 1));
   keep_rows(kept, system, ws);
@@ -86,7 +85,8 @@ std::vector<int> find_independent_rows(const System& system, Workspace& ws) {
   if (system.n_rows == 0) return {};
   // Gram-Schmidt (twice, for safety) in the order of the scene: a row that nothing is left of is redundant. Pivoting by
   // length would find the same rank but name a different row from scene to scene.
-  const VectorX scales = calc_row_scales(system, ws);
+  ws.closure.scales = calc_row_scales(system, ws);
+  const VectorX& scales = ws.closure.scales;
   calc_closure_factor(system, ws);
   std::vector<int> independent;
   MatrixX basis(system.nv, 0);

@@ -85,10 +85,10 @@ void remember_closure_angles(const System& system, Evaluation<double>& ev) {
         closure.joint);
 }
 
-#define WISHBONE_INSTANTIATE(T)                                                                              \
-  template void update_closures(const System&, double, Evaluation<T>&);                                      \
-  template void update_closure_accelerations(const System&, double, Evaluation<T>&);                         \
-  template Vector6T<T> closure_wrench(const Closure&, int, const VectorXT<T>&, const Evaluation<T>&);        \
+#define WISHBONE_INSTANTIATE(T)                                                                       \
+  template void update_closures(const System&, double, Evaluation<T>&);                               \
+  template void update_closure_accelerations(const System&, double, Evaluation<T>&);                  \
+  template Vector6T<T> closure_wrench(const Closure&, int, const VectorXT<T>&, const Evaluation<T>&); \
   template T calc_driven_power(const System&, double, const VectorXT<T>&);
 WISHBONE_INSTANTIATE(double)
 WISHBONE_INSTANTIATE(Dual)

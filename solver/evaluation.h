@@ -14,9 +14,10 @@ struct BodyMotionT {
   Vector3T<T> p_PB = Vector3T<T>::Zero();  ///< from the parent's origin to Bo
   Vector3T<T> p_MB = Vector3T<T>::Zero();  ///< from the outboard joint frame's origin to Bo
   Vector6T<T> V = Vector6T<T>::Zero();     ///< V_WB
-  Vector6T<T> c = Vector6T<T>::Zero();  ///< A_WB - shift(A_WP) - H v': velocity products and prescribed motion
-  Vector6T<T> A = Vector6T<T>::Zero();  ///< A_WB
-  Matrix6T<T> H = Matrix6T<T>::Zero();  ///< hinge matrix, first nv columns
+  Vector6T<T> c =
+      Vector6T<T>::Zero();  ///< A_WB - shift(A_WP) - H v': velocity products and prescribed motion
+  Vector6T<T> A = Vector6T<T>::Zero();          ///< A_WB
+  Matrix6T<T> H = Matrix6T<T>::Zero();          ///< hinge matrix, first nv columns
   Vector6T<T> F_applied = Vector6T<T>::Zero();  ///< sum of applied wrenches, gravity included, about Bo
   Vector6T<T> F_joint = Vector6T<T>::Zero();    ///< that the inboard joint exerts on the body, about Bo
 };
@@ -32,8 +33,8 @@ struct FlexibleMotionT {
 
 /// What is remembered between evaluations and changes only when a step is accepted: the same for every scalar.
 struct Memory {
-  std::vector<int> segments;          ///< discrete state of each force element, in the order of System::forces
-  std::vector<double> force_angles;   ///< of the force elements' gauges, from which turns are counted [rad]
+  std::vector<int> segments;         ///< discrete state of each force element, in the order of System::forces
+  std::vector<double> force_angles;  ///< of the force elements' gauges, from which turns are counted [rad]
   std::vector<double> closure_angles;   ///< of the closures' gauges [rad]
   std::vector<double> measured_angles;  ///< of System::measured [rad or m]
   std::vector<double> signal_values;    ///< of System::signals, from which their turns are counted

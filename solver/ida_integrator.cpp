@@ -38,8 +38,8 @@ class IdaIntegrator final : public Integrator {
 
  private:
   static int residual(realtype t, N_Vector y, N_Vector y_rate, N_Vector r, void* self);
-  static int jacobian(realtype t, realtype c, N_Vector y, N_Vector y_rate, N_Vector r, SUNMatrix J, void* self,
-                      N_Vector, N_Vector, N_Vector);
+  static int jacobian(realtype t, realtype c, N_Vector y, N_Vector y_rate, N_Vector r, SUNMatrix J,
+                      void* self, N_Vector, N_Vector, N_Vector);
   static int events(realtype t, N_Vector y, N_Vector y_rate, realtype* g, void* self);
 
   void calc_residual(double t, N_Vector y, N_Vector y_rate, N_Vector r);
@@ -109,15 +109,16 @@ int IdaIntegrator::residual(realtype t, N_Vector y, N_Vector y_rate, N_Vector r,
 void IdaIntegrator::calc_jacobian(double t, double c, N_Vector y, N_Vector y_rate, SUNMatrix J) {
   ++equations_.workspace().work.tangents;
   double* values = jacobian_->sparse() ? SUNSparseMatrix_Data(J) : SUNDenseMatrix_Data(J);
-  jacobian_->calc(t, c, N_VGetArrayPointer(y), N_VGetArrayPointer(y_rate), equations_.workspace().memory, values);
+  jacobian_->calc(t, c, N_VGetArrayPointer(y), N_VGetArrayPointer(y_rate), equations_.workspace().memory,
+                  values);
   if (!jacobian_->sparse()) return;
   std::copy(jacobian_->column_starts().begin(), jacobian_->column_starts().end(),
             SUNSparseMatrix_IndexPointers(J));
   std::copy(jacobian_->row_indices().begin(), jacobian_->row_indices().end(), SUNSparseMatrix_IndexValues(J));
 }
 
-int IdaIntegrator::jacobian(realtype t, realtype c, N_Vector y, N_Vector y_rate, N_Vector, SUNMatrix J, void* self,
-                            N_Vector, N_Vector, N_Vector) {
+int IdaIntegrator::jacobian(realtype t, realtype c, N_Vector y, N_Vector y_rate, N_Vector, SUNMatrix J,
+                            void* self, N_Vector, N_Vector, N_Vector) {
   auto* integrator = static_cast<IdaIntegrator*>(self);
   return integrator->equations_.guard([&] { integrator->calc_jacobian(t, c, y, y_rate, J); });
 }
@@ -169,8 +170,7 @@ void IdaIntegrator::restart(const State& state, const Work& work) {
   equations_.pack(state, work, y.head(n));
   equations_.calc_rate(state.t, y.head(n), y_rate.head(n));
   const VectorX& lambda = equations_.workspace().lambda;
-  for (std::size_t i = 0; i < kept_.size(); ++i)
-    y_rate[n + static_cast<Eigen::Index>(i)] = lambda[kept_[i]];
+  for (std::size_t i = 0; i < kept_.size(); ++i) y_rate[n + static_cast<Eigen::Index>(i)] = lambda[kept_[i]];
   t_ = state.t;
   if (!ida_) return create();
   before_ = counts();
@@ -214,6 +214,7 @@ VectorX IdaIntegrator::blame() const {
 
 IdaIntegrator::Counts IdaIntegrator::counts() const {
   Counts n = before_;
+  if (!ida_) return n;
   sundials::add_count(ida_.get(), IDAGetNumSteps, n.steps);
   sundials::add_count(ida_.get(), IDAGetNumResEvals, n.residuals);
   sundials::add_count(ida_.get(), IDAGetNumLinResEvals, n.residuals);

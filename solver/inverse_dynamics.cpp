@@ -25,7 +25,8 @@ void accelerate_bodies(const System& system, const VectorXT<T>& v_rate, Evaluati
     s.A += shift_velocity(parent.A, s.p_PB);
     if (body.parent_node >= 0) {
       const int k = system.bodies[body.parent].flexible;
-      const Vector3T<T> a_P = system.flexible[k].modal.interface_shape(body.parent_node) * ev.flexible[k].z_dd;
+      const Vector3T<T> a_P =
+          system.flexible[k].modal.interface_shape(body.parent_node) * ev.flexible[k].z_dd;
       s.A.template tail<3>() += parent.X_WB.R * a_P;
     }
   }
@@ -111,11 +112,11 @@ void calc_closure_force(const System& system, const VectorXT<T>& mu, Evaluation<
   project_onto_hinges(system, ev, force);
 }
 
-#define WISHBONE_INSTANTIATE(T)                                                                               \
-  template void update_state(const System&, double, const VectorXT<T>&, const VectorXT<T>&,                   \
-                             const VectorXT<T>&, Evaluation<T>&);                                             \
-  template void calc_motion_residual(const System&, const VectorXT<T>&, const VectorXT<T>&, Evaluation<T>&,   \
-                                     T*);                                                                     \
+#define WISHBONE_INSTANTIATE(T)                                                                             \
+  template void update_state(const System&, double, const VectorXT<T>&, const VectorXT<T>&,                 \
+                             const VectorXT<T>&, Evaluation<T>&);                                           \
+  template void calc_motion_residual(const System&, const VectorXT<T>&, const VectorXT<T>&, Evaluation<T>&, \
+                                     T*);                                                                   \
   template void calc_closure_force(const System&, const VectorXT<T>&, Evaluation<T>&, T*);
 WISHBONE_INSTANTIATE(double)
 WISHBONE_INSTANTIATE(Dual)

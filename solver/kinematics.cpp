@@ -126,8 +126,7 @@ void update_velocities(const System& system, double t, const VectorXT<T>& q, con
     if (body.flexible >= 0) {
       const FlexibleBody& flexible = system.flexible[body.flexible];
       const Vector3T<T> w_WB_B = s.X_WB.R.transpose() * angular(s.V);
-      flexible.modal.set_velocity(w_WB_B, v.data() + flexible.z_rate_start,
-                                  ev.flexible[body.flexible].modal);
+      flexible.modal.set_velocity(w_WB_B, v.data() + flexible.z_rate_start, ev.flexible[body.flexible].modal);
     }
   }
 }
@@ -195,11 +194,12 @@ void calc_q_rate(const System& system, const VectorXT<T>& q, const VectorXT<T>& 
     std::copy_n(v.data() + flexible.z_rate_start, flexible.modal.mode_count(), q_rate + flexible.z_start);
 }
 
-#define WISHBONE_INSTANTIATE(T)                                                                                \
-  template void update_positions(const System&, double, const VectorXT<T>&, Evaluation<T>&);                   \
-  template void update_velocities(const System&, double, const VectorXT<T>&, const VectorXT<T>&, Evaluation<T>&); \
-  template void update_markers(const System&, Evaluation<T>&);                                                 \
-  template void update_closure_marker_accelerations(const System&, Evaluation<T>&);                            \
+#define WISHBONE_INSTANTIATE(T)                                                                  \
+  template void update_positions(const System&, double, const VectorXT<T>&, Evaluation<T>&);     \
+  template void update_velocities(const System&, double, const VectorXT<T>&, const VectorXT<T>&, \
+                                  Evaluation<T>&);                                               \
+  template void update_markers(const System&, Evaluation<T>&);                                   \
+  template void update_closure_marker_accelerations(const System&, Evaluation<T>&);              \
   template void calc_q_rate(const System&, const VectorXT<T>&, const VectorXT<T>&, T*);
 WISHBONE_INSTANTIATE(double)
 WISHBONE_INSTANTIATE(Dual)

@@ -102,9 +102,9 @@ void remember_angles(const System& system, const State& state, Evaluation<double
   }
 }
 
-#define WISHBONE_INSTANTIATE(T)                                                               \
-  template void clear_loads(Evaluation<T>&);                                                  \
-  template void apply_forces(const System&, double, const VectorXT<T>&, Evaluation<T>&);      \
+#define WISHBONE_INSTANTIATE(T)                                                          \
+  template void clear_loads(Evaluation<T>&);                                             \
+  template void apply_forces(const System&, double, const VectorXT<T>&, Evaluation<T>&); \
   template void add_closure_loads(const System&, const VectorXT<T>&, Evaluation<T>&);
 WISHBONE_INSTANTIATE(double)
 WISHBONE_INSTANTIATE(Dual)

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/forward_dynamics.h"
 #include "joints/joint_kind.h"
 #include "solver/closures.h"
+#include "solver/forward_dynamics.h"
 #include "solver/loads.h"
 #include "solver/reactions.h"
 
@@ -223,7 +223,8 @@ void Observer::add_closures(const System& system) {
       return closure_wrench(s.system.closures[c], 0, s.ws.lambda, s.ws);
     };
     add(path + "/force", {3}, "N", kWorld,
-        "reaction on the first-named body, at the joint; of least norm where the mechanism is over-constrained",
+        "reaction on the first-named body, at the joint; of least norm where the mechanism is "
+        "over-constrained",
         [reaction](const Sample& s, double* out) { put(linear(reaction(s)), out); });
     add(path + "/moment", {3}, "N m", kWorld, "reaction moment on the first-named body, about the joint",
         [reaction](const Sample& s, double* out) { put(angular(reaction(s)), out); });

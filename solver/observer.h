@@ -19,7 +19,7 @@ struct ObserverOptions {
   };
   struct Steering {
     std::string name;
-    int body = -1;   ///< body whose inboard joint steers
+    int body = -1;    ///< body whose inboard joint steers
     double sign = 1;  ///< of the coordinate, positive to the left
   };
   std::vector<Deflection> deflections;

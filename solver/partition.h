@@ -43,10 +43,10 @@ class PartitionedSystem final : public FirstOrderSystem {
   int n_dependent_, n_independent_;
   std::vector<int> independent_, dependent_;  // speeds, ascending
   VectorX q_reference_;
-  VectorX d_;           // all displacements of the last evaluation
-  double sine_ = 1;     // of the dependent columns when they were chosen
-  MatrixX D_;           // kept rows x nv, of speeds
-  MatrixX D_J_;         // its dependent columns, times the tangent of the displacements where asked for
+  VectorX d_;        // all displacements of the last evaluation
+  double sine_ = 1;  // of the dependent columns when they were chosen
+  MatrixX D_;        // kept rows x nv, of speeds
+  MatrixX D_J_;      // its dependent columns, times the tangent of the displacements where asked for
   Eigen::PartialPivLU<MatrixX> lu_;
   VectorX row_force_, mu_, residual_, d_rate_, speeds_;
   std::vector<const TreeBody*> turning_;  // bodies on joints with quaternions

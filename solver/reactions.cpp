@@ -25,8 +25,7 @@ std::vector<int> joints_of_loops(const System& system) {
 std::vector<Vector3> joint_points(const System& system, const std::vector<int>& bodies, const Workspace& ws) {
   std::vector<Vector3> points;
   for (const int i : bodies) points.push_back(tree_joint_point(ws, i));
-  for (const Closure& closure : system.closures)
-    points.push_back(ws.markers[closure.markers.front()].p_WM);
+  for (const Closure& closure : system.closures) points.push_back(ws.markers[closure.markers.front()].p_WM);
   return points;
 }
 

@@ -5,9 +5,9 @@
 namespace wishbone {
 namespace {
 
-constexpr double kClose = 0.3;         // sine above which nothing is singular
-constexpr double kSameSlope = 0.3;     // deviation from the mirrored line, relative
-constexpr double kTouching = 1e-4;     // a step that ends here has landed on the position
+constexpr double kClose = 0.3;      // sine above which nothing is singular
+constexpr double kSameSlope = 0.3;  // deviation from the mirrored line, relative
+constexpr double kTouching = 1e-4;  // a step that ends here has landed on the position
 
 }  // namespace
 

@@ -27,7 +27,7 @@ namespace wishbone {
 struct TreeBody {
   std::string name;
   std::string joint_name;
-  bool floating = false;  ///< on a free joint that the scene does not name
+  bool floating = false;        ///< on a free joint that the scene does not name
   bool first_is_child = false;  ///< the joint's first-named body is this one, not the parent
   int parent = -1;  ///< index of the inboard body, always smaller than the own index; -1: the inertial frame
   int parent_node = -1;  ///< interface node of a flexible parent that carries the joint; -1: rigid parent
@@ -61,7 +61,8 @@ struct Marker {
 struct Closure {
   std::string name;
   CutJoint joint;
-  std::vector<MarkerIndex> markers;  ///< participants: on the first- and the second-named body, or those of a coupling
+  std::vector<MarkerIndex>
+      markers;  ///< participants: on the first- and the second-named body, or those of a coupling
   int row_start = 0, rows = 0;
   int column_start = 0;   ///< of its unit wrenches in Evaluation::W: `rows` columns for each participant
   int gauge_start = 0;    ///< of its gauges in Memory::closure_angles
@@ -70,15 +71,17 @@ struct Closure {
 
 /// A coordinate of a joint that is measured between two markers, to be recorded: of joints that close loops.
 struct MeasuredCoordinate {
-  std::string joint, name;  ///< name of the coordinate, "angle", "travel" ...; empty where the joint has one only
+  std::string joint,
+      name;  ///< name of the coordinate, "angle", "travel" ...; empty where the joint has one only
   Gauge gauge;
   MarkerIndex A = 0, B = 0;
 };
 
 /// Force elements by concrete type, so that the evaluation calls them without dispatch. A new force is one entry.
 using ForceElements =
-    std::tuple<std::vector<SpringDamper>, std::vector<Tire>, std::vector<AppliedLoad>, std::vector<JointSpring>,
-               std::vector<JointFriction>, std::vector<JointLimit>, std::vector<JointDrive>>;
+    std::tuple<std::vector<SpringDamper>, std::vector<Tire>, std::vector<AppliedLoad>,
+               std::vector<JointSpring>, std::vector<JointFriction>, std::vector<JointLimit>,
+               std::vector<JointDrive>>;
 
 /// The compiled scene: what must be evaluated and nothing else. Immutable; every mutable number of an evaluation is in
 /// a Workspace. Made by SystemBuilder.
@@ -95,9 +98,9 @@ struct System {
   /// Factors on the speeds' shares in the metric in which the initial pose is assembled; empty: all one.
   VectorX assembly_weights;
 
-  int nq = 0;      ///< coordinates q, modal ones included
-  int nv = 0;      ///< speeds v
-  int nx = 0;      ///< states of the force elements
+  int nq = 0;         ///< coordinates q, modal ones included
+  int nv = 0;         ///< speeds v
+  int nx = 0;         ///< states of the force elements
   int n_rows = 0;     ///< closure rows, redundant ones included
   int n_columns = 0;  ///< unit wrenches of all closure rows on their markers
   int n_gauges = 0;   ///< of all closures

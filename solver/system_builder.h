@@ -120,7 +120,7 @@ class SystemBuilder {
   ForceElements forces_;
   std::vector<Signal> signals_;
   std::vector<MeasuredCoordinate> measured_;
-  std::vector<int> order_of_;  // entry -> index in System::bodies
+  std::vector<int> order_of_;    // entry -> index in System::bodies
   std::vector<double> weights_;  // of the speeds, in the order of System
 };
 

@@ -40,7 +40,8 @@ Tangents::Tangents(const System& system)
       lambda_rate_(VectorX::Zero(system.n_rows)),
       solved_(VectorX::Zero(system.nv)) {}
 
-void Tangents::seed(const State& state, const Directions& directions, Eigen::Index first, Eigen::Index count) {
+void Tangents::seed(const State& state, const Directions& directions, Eigen::Index first,
+                    Eigen::Index count) {
   set_seeds(state.q, directions.q, first, count, q_);
   set_seeds(state.v, directions.v, first, count, v_);
   set_seeds(state.x, directions.x, first, count, x_);
@@ -55,8 +56,7 @@ void Tangents::solve(Eigen::Index k, Workspace& ws, Eigen::Ref<VectorX> v_rate) 
     // D M^-1 D^T dlambda = -(dPhi'' + D M^-1 (-dr)),  D M^-1 tau = U^T e
     closure_rhs_.setZero();
     for (std::size_t i = 0; i < f.kept.size(); ++i)
-      closure_rhs_[f.kept[i]] =
-          ev_.Phi_dd[f.kept[i]].d[k] + f.U.col(static_cast<Eigen::Index>(i)).dot(ws.e);
+      closure_rhs_[f.kept[i]] = ev_.Phi_dd[f.kept[i]].d[k] + f.U.col(static_cast<Eigen::Index>(i)).dot(ws.e);
     solve_multipliers(closure_rhs_, ws);
     lambda_rate_ = ws.lambda;
     ws.e.noalias() += f.U * f.solution;
@@ -81,8 +81,7 @@ void Tangents::calc(const State& state, const Directions& directions, Workspace&
     calc_q_rate<Dual>(system_, q_, v_, q_rate_.data());
     for (Eigen::Index k = 0; k < count; ++k) {
       solve(k, ws, derivatives.v_rate.col(first + k));
-      for (Eigen::Index i = 0; i < v_rate.size(); ++i)
-        v_rate_[i].d[k] = derivatives.v_rate(i, first + k);
+      for (Eigen::Index i = 0; i < v_rate.size(); ++i) v_rate_[i].d[k] = derivatives.v_rate(i, first + k);
       for (Eigen::Index i = 0; i < lambda.size(); ++i) lambda_[i].d[k] = lambda_rate_[i];
       for (Eigen::Index i = 0; i < q_rate_.size(); ++i) derivatives.q_rate(i, first + k) = q_rate_[i].d[k];
       for (Eigen::Index i = 0; i < ev_.x_rate.size(); ++i)

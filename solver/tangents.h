@@ -42,7 +42,8 @@ class Tangents {
   void calc(const State& state, const Directions& directions, Workspace& ws, MotionDerivatives& derivatives);
 
   /// dPhi' of all rows along the directions, after update_closures at `state`.
-  void calc_closure_rate(const State& state, const Directions& directions, const Workspace& ws, MatrixX& Phi_rate);
+  void calc_closure_rate(const State& state, const Directions& directions, const Workspace& ws,
+                         MatrixX& Phi_rate);
 
  private:
   void seed(const State& state, const Directions& directions, Eigen::Index first, Eigen::Index count);

@@ -19,7 +19,12 @@ constexpr long kPatience = 10'000;  // steps between two looks at the progress
 class Run {
  public:
   Run(const System& system, State state, const TransientOptions& options, Workspace& ws, const Output& output)
-      : system_(system), options_(options), ws_(ws), output_(output), state_(std::move(state)), counts_turns_(counts_turns(system)) {
+      : system_(system),
+        options_(options),
+        ws_(ws),
+        output_(output),
+        state_(std::move(state)),
+        counts_turns_(counts_turns(system)) {
     stops_ = system.stop_times();
     std::erase_if(stops_, [&](double t) { return t <= state_.t || t >= options.duration; });
     stops_.push_back(options.duration);

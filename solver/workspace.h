@@ -17,8 +17,9 @@ struct ArticulatedBody {
 
 /// Modal coordinates of one flexible body while they are condensed.
 struct CondensedModes {
-  MatrixX M_zz;  ///< modal mass: identity plus what hangs on the nodes; then its Cholesky factor (lower triangle). Empty when
-                 ///< no joint hangs on the nodes
+  MatrixX
+      M_zz;  ///< modal mass: identity plus what hangs on the nodes; then its Cholesky factor (lower triangle). Empty when
+      ///< no joint hangs on the nodes
   MatrixX Y;       ///< L_z^-1 M_zr, m x 6
   Matrix3X P_Psi;  ///< scratch: a child's P+ times the shapes of its node
 };
@@ -31,18 +32,21 @@ struct WorkCounters {
 
 /// Factor of D M^-1 D^T = U^T U for the rows that are solved for.
 struct ClosureFactor {
-  std::vector<int> kept;  ///< independent rows, ascending
-  MatrixX U;              ///< nv x kept rows
-  MatrixX S;              ///< kept x kept; its Cholesky factor after factoring
+  std::vector<int> kept;                   ///< independent rows, ascending
+  MatrixX U;                               ///< nv x kept rows
+  MatrixX S;                               ///< kept x kept; its Cholesky factor after factoring
   Eigen::ColPivHouseholderQR<MatrixX> qr;  ///< of U, where Cholesky would lose too many digits
   bool orthogonal = false;                 ///< whether qr is in use
-  int rank = 0;            ///< rows that take part, all of them unless they have become dependent
-  double least_sine = 1;   ///< smallest sine of the angle between a row and those before it
-  int least_row = -1;      ///< the row it belongs to
-  VectorX lengths;         ///< of the columns of U
-  MatrixX scaled;          ///< U with columns of unit length
+  int rank = 0;  ///< rows that take part, all of them unless they have become dependent
+  double least_sine =
+      1;  ///< smallest length that a row has orthogonal to those before it, by its scale: zero where the rank is lost
+  int least_row = -1;  ///< the row it belongs to
+  VectorX
+      scales;  ///< of all rows, what their lengths (columns of U) are measured by; empty: the lengths themselves
+  VectorX lengths;  ///< scales of the kept rows
+  MatrixX scaled;   ///< U with columns divided by them
   VectorX scratch;
-  VectorX solution;        ///< multipliers of the kept rows
+  VectorX solution;  ///< multipliers of the kept rows
 };
 
 /// Everything that solving for accelerations writes, sized once; solving allocates nothing.
@@ -51,10 +55,10 @@ struct Workspace : Evaluation<double> {
 
   std::vector<ArticulatedBody> articulated;
   std::vector<CondensedModes> condensed;
-  VectorX v_rate;        ///< v'
-  VectorX e;             ///< F tau, nv (articulated_body.h)
-  VectorX hinge_force;   ///< generalised forces (nv), for Terms::hinge_forces
-  VectorX stiffening;    ///< factor on the hinge inertia of each speed while assembling; empty: none
+  VectorX v_rate;       ///< v'
+  VectorX e;            ///< F tau, nv (articulated_body.h)
+  VectorX hinge_force;  ///< generalised forces (nv), for Terms::hinge_forces
+  VectorX stiffening;   ///< factor on the hinge inertia of each speed while assembling; empty: none
   ClosureFactor closure;
   VectorX lambda;        ///< all rows; zero for those not kept
   VectorX displacement;  ///< nv

@@ -17,10 +17,11 @@ struct RoadDepression {
 /// The road straight above or below one point of the plane.
 template <class T>
 struct RoadPointT {
-  T height = T(0);              ///< H [m]
-  T slope_x = T(0);             ///< dH/dx
-  T slope_y = T(0);             ///< dH/dy
-  Vector3T<T> uz = Vector3T<T>::UnitZ();  ///< unit normal, world components, upward: (-dH/dx, -dH/dy, 1) normalised
+  T height = T(0);   ///< H [m]
+  T slope_x = T(0);  ///< dH/dx
+  T slope_y = T(0);  ///< dH/dy
+  Vector3T<T> uz =
+      Vector3T<T>::UnitZ();  ///< unit normal, world components, upward: (-dH/dx, -dH/dy, 1) normalised
 };
 using RoadPoint = RoadPointT<double>;
 

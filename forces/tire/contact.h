@@ -20,9 +20,9 @@ struct WheelContactT {
   Vector3T<T> P0;  ///< road point below the wheel centre [m]
   Vector3T<T> P;   ///< contact point, in the wheel plane and in the tangent plane of the road [m]
   Vector3T<T> ux, uy, uz;
-  T upright = T(0);        ///< |us x uz| = cos(camber); the geometry is lost at 0, when the wheel lies flat
-  T loaded_radius = T(0);  ///< rho [m]
-  T deflection = T(0);     ///< delta [m]; negative in the air
+  T upright = T(0);          ///< |us x uz| = cos(camber); the geometry is lost at 0, when the wheel lies flat
+  T loaded_radius = T(0);    ///< rho [m]
+  T deflection = T(0);       ///< delta [m]; negative in the air
   T deflection_rate = T(0);  ///< delta' = -v_P.uz [m/s]
   T camber = T(0);  ///< gamma = -asin(us.uz) [rad], positive when the top of the wheel leans toward +uy
   T vx = T(0);      ///< v_P.ux [m/s]

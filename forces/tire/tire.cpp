@@ -45,7 +45,8 @@ Tire::Tire(std::string name, MarkerIndex wheel, UaTireParameters parameters, Roa
 
 template <class T>
 WheelContactT<T> Tire::checked_contact(const ForceInputT<T>& input) const {
-  const WheelContactT<T> contact = wheel_contact(input.markers[wheel_], parameters_.radius, road_, input.segment);
+  const WheelContactT<T> contact =
+      wheel_contact(input.markers[wheel_], parameters_.radius, road_, input.segment);
   const auto fail = [&](const char* what, double value) {
     throw NumericsError({fmt::format("{} at t = {} s", name_, input.time), what, fmt::format("{:g}", value),
                          "check the initial pose and whether the vehicle rolled over"});
@@ -101,7 +102,8 @@ void Tire::apply(const ForceInputT<T>& input, ForceOutputT<T>& output) const {
 }
 
 template <class T>
-void Tire::set_lag_rates(const WheelContactT<T>& c, const ForceInputT<T>& input, ForceOutputT<T>& output) const {
+void Tire::set_lag_rates(const WheelContactT<T>& c, const ForceInputT<T>& input,
+                         ForceOutputT<T>& output) const {
   const double touching = c.deflection > 0 ? 1.0 : 0.0;
   const T vr = ua_slip_reference_speed(c.vx, c.v_cir);
   output.state_rates[0] =

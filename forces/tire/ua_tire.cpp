@@ -107,7 +107,8 @@ T ua_normal_force(const UaTireParameters& tire, const T& delta, const T& delta_r
 }
 
 template <class T>
-UaShearT<T> ua_shear_smooth(const UaTireParameters& tire, const UaSlipT<T>& slip, const T& patch_length, const T& Fz) {
+UaShearT<T> ua_shear_smooth(const UaTireParameters& tire, const UaSlipT<T>& slip, const T& patch_length,
+                            const T& Fz) {
   using std::abs;
   using std::hypot;
   using std::sin;
@@ -152,7 +153,8 @@ UaShearT<T> ua_shear_smooth(const UaTireParameters& tire, const UaSlipT<T>& slip
 }
 
 template <class T>
-UaShearT<T> ua_shear_classic(const UaTireParameters& tire, const UaSlipT<T>& slip, const T& patch_length, const T& Fz) {
+UaShearT<T> ua_shear_classic(const UaTireParameters& tire, const UaSlipT<T>& slip, const T& patch_length,
+                             const T& Fz) {
   using std::abs;
   using std::hypot;
   using std::sin;
@@ -205,8 +207,7 @@ UaShearT<T> ua_shear_classic(const UaTireParameters& tire, const UaSlipT<T>& sli
       l * ln2 * (b * (-0.5 + 2 * ln / 3) + along_b * 1.5 * (Fy_slide - along_c * c) * square(Sn));
   const T Tz_s_alpha =
       l * (2.0 / 3 * a * Sa * ln3 + 0.6 * Fx_slide * Fy_slide / tire.cornering_stiffness * h);
-  const T Tz_s_gamma =
-      square(l) * Sg / tire.radius * (a * (ln3 / 3 - square(ln2) / 4) + 0.1 * Fx_slide * h);
+  const T Tz_s_gamma = square(l) * Sg / tire.radius * (a * (ln3 / 3 - square(ln2) / 4) + 0.1 * Fx_slide * h);
 
   UaShearT<T> shear;
   shear.friction = mu;
@@ -228,9 +229,11 @@ template double ua_normal_force(const UaTireParameters&, const double&, const do
 template Dual ua_normal_force(const UaTireParameters&, const Dual&, const Dual&);
 template UaShearT<double> ua_shear_smooth(const UaTireParameters&, const UaSlipT<double>&, const double&,
                                           const double&);
-template UaShearT<Dual> ua_shear_smooth(const UaTireParameters&, const UaSlipT<Dual>&, const Dual&, const Dual&);
+template UaShearT<Dual> ua_shear_smooth(const UaTireParameters&, const UaSlipT<Dual>&, const Dual&,
+                                        const Dual&);
 template UaShearT<double> ua_shear_classic(const UaTireParameters&, const UaSlipT<double>&, const double&,
                                            const double&);
-template UaShearT<Dual> ua_shear_classic(const UaTireParameters&, const UaSlipT<Dual>&, const Dual&, const Dual&);
+template UaShearT<Dual> ua_shear_classic(const UaTireParameters&, const UaSlipT<Dual>&, const Dual&,
+                                         const Dual&);
 
 }  // namespace wishbone

@@ -100,7 +100,8 @@ inline double ua_normal_force(const UaTireParameters& tire, double delta, double
 ///     Fy = ay l_n^2 + ag (3 l_n^2 - 2 l_n^3) + F uy g,   g = 1 - 3 l_n^2 + 2 l_n^3.
 /// Mirror symmetric: (sy, gamma) -> -(sy, gamma) keeps Fx and turns Fy and Tz. |(Fx, Fy)| <= mu Fz always.
 template <class T>
-UaShearT<T> ua_shear_smooth(const UaTireParameters& tire, const UaSlipT<T>& slip, const T& patch_length, const T& Fz);
+UaShearT<T> ua_shear_smooth(const UaTireParameters& tire, const UaSlipT<T>& slip, const T& patch_length,
+                            const T& Fz);
 
 /// The published form: magnitudes in three cases by the signs of slip angle alpha and camber gamma,
 /// recombined by signs.
@@ -112,6 +113,7 @@ UaShearT<T> ua_shear_smooth(const UaTireParameters& tire, const UaSlipT<T>& slip
 /// Under braking or traction Tz also jumps at alpha = 0 of a leaning wheel (I and III), for its sign is that
 /// of alpha.
 template <class T>
-UaShearT<T> ua_shear_classic(const UaTireParameters& tire, const UaSlipT<T>& slip, const T& patch_length, const T& Fz);
+UaShearT<T> ua_shear_classic(const UaTireParameters& tire, const UaSlipT<T>& slip, const T& patch_length,
+                             const T& Fz);
 
 }  // namespace wishbone

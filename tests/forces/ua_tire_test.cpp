@@ -89,7 +89,8 @@ class UaTireForms : public ::testing::TestWithParam<Law> {
     return GetParam()(kTire, {sx, sy, gamma}, kPatch, Fz);
   }
 };
-INSTANTIATE_TEST_SUITE_P(, UaTireForms, ::testing::Values(&ua_shear_smooth<double>, &ua_shear_classic<double>),
+INSTANTIATE_TEST_SUITE_P(, UaTireForms,
+                         ::testing::Values(&ua_shear_smooth<double>, &ua_shear_classic<double>),
                          [](const auto& form) { return form.index == 0 ? "Smooth" : "Classic"; });
 
 TEST_P(UaTireForms, SlopesAtZeroSlipAreTheStiffnesses) {
@@ -215,10 +216,13 @@ TEST(UaTireSmooth, HasNoJumpWhereAWeaklyLoadedTireLeans) {
 
 TEST(UaTireClassic, IsContinuousButForTheDocumentedJumps) {
   EXPECT_LT(largest_jump(ua_shear_classic<double>, {0, 0.004, 0.05}, {0, -0.004, 0.05}),
-            1e-7);                                                                 // I to III, at alpha = 0
-  EXPECT_LT(largest_jump(ua_shear_classic<double>, {0.1, 0.1, 0}, {-0.1, 0.1, 0}), 1e-7);  // traction to braking
-  EXPECT_LT(largest_jump(ua_shear_classic<double>, {0.1, 0.01, 0}, {0.9, 0.3, 0}), 1e-7);  // elastic to sliding
-  EXPECT_LT(largest_jump(ua_shear_classic<double>, {0, -0.05, 0.02}, {0, -0.5, 0.02}), 1e-7);  // the same in case II
+            1e-7);  // I to III, at alpha = 0
+  EXPECT_LT(largest_jump(ua_shear_classic<double>, {0.1, 0.1, 0}, {-0.1, 0.1, 0}),
+            1e-7);  // traction to braking
+  EXPECT_LT(largest_jump(ua_shear_classic<double>, {0.1, 0.01, 0}, {0.9, 0.3, 0}),
+            1e-7);  // elastic to sliding
+  EXPECT_LT(largest_jump(ua_shear_classic<double>, {0, -0.05, 0.02}, {0, -0.5, 0.02}),
+            1e-7);  // the same in case II
 }
 
 TEST(UaTireClassic, JumpsBetweenCasesTwoAndThreeByTheKnownAmounts) {

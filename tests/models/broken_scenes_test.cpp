@@ -245,10 +245,11 @@ constexpr Broken kCatalogue[] = {
            "scene.yaml:23:89: joints.slide.speed: error: a cut joint has no coordinate of its own to start "
            "from (got '1 m/s')\n"
            "  remove 'speed'"},
-    Broken{"SteeringByCutJoint", "motion: turn", "motion: turn, cut: true",
-           "scene.yaml:47:43: vehicle.steering.front: error: a steering angle is the coordinate of a revolute "
-           "tree joint (got 'pivot')\n"
-           "  name such a joint"},
+    Broken{
+        "SteeringByCutJoint", "motion: turn", "motion: turn, cut: true",
+        "scene.yaml:47:43: vehicle.steering.front: error: a steering angle is the coordinate of a revolute "
+        "tree joint (got 'pivot')\n"
+        "  name such a joint"},
     Broken{"MotionAndSpeed", "motion: turn", "motion: turn, speed: 1",
            "scene.yaml:22:103: joints.pivot.speed: error: the motion prescribes the coordinate (got '1')\n"
            "  remove 'speed'"},
@@ -265,14 +266,15 @@ constexpr Broken kCatalogue[] = {
            "  slide: {type: prismatic, bodies: [arm, wheel]",
            "scene.yaml:25:3: joints.slide: error: not all joints with 'cut: false' fit into one tree: slide\n"
            "  leave one joint of each loop to be cut ('cut: true', or no 'cut')"},
-    Broken{"StartOfALoopJoint", "  slide: {type: prismatic, bodies: [arm, wheel]",
-           "  weld: {type: fixed, bodies: [ground, wheel], at: [0, 0, 0]}\n"
-           "  brace: {type: fixed, bodies: [arm, wheel], at: [0, 0, 0]}\n"
-           "  lever: {type: revolute, bodies: [ground, wheel], at: [0, 0, 0], axis: [0, 0, 1], speed: 1}\n"
-           "  slide: {type: prismatic, bodies: [arm, wheel]",
-           "scene.yaml:25:3: joints.lever: error: the joint closes a loop and has no coordinate of its own to "
-           "start from\n"
-           "  leave out its 'position' and 'speed', or say 'cut: true' at another joint of the loop"},
+    Broken{
+        "StartOfALoopJoint", "  slide: {type: prismatic, bodies: [arm, wheel]",
+        "  weld: {type: fixed, bodies: [ground, wheel], at: [0, 0, 0]}\n"
+        "  brace: {type: fixed, bodies: [arm, wheel], at: [0, 0, 0]}\n"
+        "  lever: {type: revolute, bodies: [ground, wheel], at: [0, 0, 0], axis: [0, 0, 1], speed: 1}\n"
+        "  slide: {type: prismatic, bodies: [arm, wheel]",
+        "scene.yaml:25:3: joints.lever: error: the joint closes a loop and has no coordinate of its own to "
+        "start from\n"
+        "  leave out its 'position' and 'speed', or say 'cut: true' at another joint of the loop"},
     Broken{
         "NodeOutOfRange", "{body: beam, node: 1}", "{body: beam, node: 13}",
         "scene.yaml:24:63: joints.hold.bodies[2].node: error: the body 'beam' has no such node (got '13')\n"

@@ -78,7 +78,8 @@ TEST(ClosureRows, RecursiveFactorSquaresToTheInverseInertiaOfTheClosures) {
     calc_closure_factor(m.system, ws);
     const MatrixX D = closure_jacobian(m.system, m.state);
     const MatrixX expected = D * mass_matrix_from_energy(m.system, m.state).ldlt().solve(D.transpose());
-    EXPECT_LT((ws.closure.U.transpose() * ws.closure.U - expected).norm(), 1e-10 * expected.norm()) << "seed " << seed;
+    EXPECT_LT((ws.closure.U.transpose() * ws.closure.U - expected).norm(), 1e-10 * expected.norm())
+        << "seed " << seed;
   }
 }
 
