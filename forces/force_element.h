@@ -14,7 +14,7 @@ struct ForceInputT {
   std::span<const T> states;  ///< states of the element's own (tire lag, ...); empty when it has none
   int segment = 0;   ///< the element's discrete state (road segment of a tire, ...), changed only by events
   double angle = 0;  ///< the angle that the element's gauge had last, from which turns are counted [rad]
-  /// Of functions (core/function.h): the time, then the system's signals (forces/signal.h).
+  /// Of functions (core/function.h): the time, then the system's signals (forces/motion_signal.h).
   std::span<const T> variables = {};
 };
 using ForceInput = ForceInputT<double>;

@@ -24,10 +24,13 @@ class JointCompiler {
   /// The body that a tree joint carries (index in the scene).
   int carried_body(int joint) const;
 
+  /// A new marker at a point, with axes given in the design frame.
+  MarkerIndex marker(const Scene::Point& point, const Matrix3& R_DM = Matrix3::Identity());
+  /// The markers of a joint on its first- and its second-named body, between which its coordinates are measured.
+  std::pair<MarkerIndex, MarkerIndex> markers(int joint);
+
  private:
   Attachment attachment(const Scene::Point& point) const;
-  MarkerIndex marker(const Scene::Point& point, const Matrix3& R_DM);
-  std::pair<MarkerIndex, MarkerIndex> markers(int joint);
   Matrix3 second_axes(const Scene::Joint& joint) const;
   TreeJoint tree_joint(const Scene::Joint& joint) const;
   CutJoint cut_joint(const Scene::Joint& joint) const;

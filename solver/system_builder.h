@@ -69,7 +69,7 @@ class SystemBuilder {
   }
 
   /// A signal that functions of forces may use; returns its index among their variables, from 1.
-  int add_signal(Signal signal) {
+  int add_signal(MotionSignal signal) {
     signals_.push_back(std::move(signal));
     return static_cast<int>(signals_.size());
   }
@@ -118,7 +118,7 @@ class SystemBuilder {
   std::vector<Marker> markers_;
   std::vector<Closure> closures_;
   ForceElements forces_;
-  std::vector<Signal> signals_;
+  std::vector<MotionSignal> signals_;
   std::vector<MeasuredCoordinate> measured_;
   std::vector<int> order_of_;    // entry -> index in System::bodies
   std::vector<double> weights_;  // of the speeds, in the order of System

@@ -12,20 +12,20 @@ namespace wishbone {
 
 /// A scalar of the motion by name, on which loads may depend: the coordinate of a gauge between two markers or its rate, or one
 /// world component of a marker's position or velocity.
-class Signal {
+class MotionSignal {
  public:
   enum class Quantity { position, speed };
 
   /// u [rad or m], or u' [rad/s or m/s], of a gauge between A and B. An angle counts whole turns.
   /// @throws InputError naming the signal if A and B are one marker
-  Signal(std::string name, MarkerIndex A, MarkerIndex B, Gauge gauge, Quantity quantity)
+  MotionSignal(std::string name, MarkerIndex A, MarkerIndex B, Gauge gauge, Quantity quantity)
       : name_(std::move(name)), A_(A), B_(B), gauge_(gauge), is_gauge_(true), quantity_(quantity) {
     require(A != B, name_, "a signal is measured between two different markers", A, "name two points");
   }
 
   /// Component `axis` (0 x, 1 y, 2 z, world axes) of p_WM [m] or v_WM [m/s].
   /// @throws InputError naming the signal if there is no such axis
-  Signal(std::string name, MarkerIndex marker, int axis, Quantity quantity)
+  MotionSignal(std::string name, MarkerIndex marker, int axis, Quantity quantity)
       : name_(std::move(name)), A_(marker), B_(marker), axis_(axis), quantity_(quantity) {
     require(axis >= 0 && axis <= 2, name_, "a component is one of three", axis, "give 0, 1 or 2");
   }
