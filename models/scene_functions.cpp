@@ -66,17 +66,17 @@ Points read_points_file(const Mapping& keys, const Dimension& x, const Dimension
   identification_sections::Files files;
   const auto path = files.note(file);
   scene.data_files.insert(scene.data_files.end(), files.read().begin(), files.read().end());
-  return within(file.where(), [&] {
-    CsvTable table(path);
-    const auto [column_x, column_y] = columns_of(table, keys.optional("columns"), file);
-    const double to_x = table.si_factor(column_x, x), to_y = table.si_factor(column_y, y);
-    Points points;
+  CsvTable table = within(file.where(), [&] { return CsvTable(path); });
+  const auto [column_x, column_y] = columns_of(table, keys.optional("columns"), file);
+  Points points;
+  within(file.where(), [&, at_x = column_x, at_y = column_y] {
+    const double to_x = table.si_factor(at_x, x), to_y = table.si_factor(at_y, y);
     while (table.next_row()) {
-      points.x.push_back(table.number(column_x) * to_x);
-      points.y.push_back(table.number(column_y) * to_y);
+      points.x.push_back(table.number(at_x) * to_x);
+      points.y.push_back(table.number(at_y) * to_y);
     }
-    return points;
   });
+  return points;
 }
 
 Function read_table(const Value& value, const Dimension& dimension, Table::Interpolation usual,

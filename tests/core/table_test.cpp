@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 
+#include "allocation_counter.h"
 #include "core/dual.h"
 #include "core/error.h"
 #include "core/function.h"
@@ -144,6 +146,22 @@ TEST(Function, IsAConstantATableOrAnExpression) {
   EXPECT_EQ(Function(Expression("2*gap + t", {"t", "gap"}))(at), 14.5);
   EXPECT_EQ(Function(3).constant(), 3);
   EXPECT_THAT(Function(Table("table", {0, 1}, {0, 4}, linear), 1).variables(), testing::ElementsAre(1));
+}
+
+TEST(Function, IsEvaluatedWithoutAllocation) {
+  const Function expression(
+      Expression("step(t, 0, 1, 1, max(gap, 2, t)) > 1 ? gap^2 : -sin(t)", {"t", "gap"}));
+  const Function table(Table("table", {0, 1, 2}, {0, 4, 0}, spline));
+  const std::array<double, 2> numbers{0.5, 7};
+  const std::array<Jet2, 2> jets{0.5, 7};
+  const std::array<Dual, 2> duals{0.5, 7};
+  const long before = allocation_count();
+  double sum = 0;
+  for (const Function* f : {&expression, &table})
+    sum += (*f)(std::span<const double>(numbers)) + (*f)(std::span<const Jet2>(jets)).value +
+           (*f)(std::span<const Dual>(duals)).value;
+  EXPECT_EQ(allocation_count(), before);
+  EXPECT_GT(sum, 0);
 }
 
 TEST(Function, StopsWhereItBends) {
