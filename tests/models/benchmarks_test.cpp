@@ -177,8 +177,7 @@ TEST_P(FourBars, PassSingularPositionsOnTheBranchOfParallelograms) {
   const Benchmark r = run("n_four_bar", {"N=" + std::to_string(N)}, duration, 1, 1e-9);
   const std::map<std::pair<int, int>, double> rate_of_crank = {
       {{1, 4}, -1.13988786970367386522215},  {{1, 10}, -1.96693471944031945632741},
-      {{2, 4}, -1.07651118008554302195702},  {{2, 10}, -1.50664218084182946989427},
-      {{40, 1}, -6.71481488072356295900851}, {{40, 4}, -1.02627468830062499705845}};
+      {{2, 4}, -1.07651118008554302195702},  {{2, 10}, -1.50664218084182946989427}};
   for (const auto& [key, rate] : rate_of_crank)
     if (key.first == N && key.second <= duration)
       for (const int crank : {0, N})
@@ -191,8 +190,7 @@ TEST_P(FourBars, PassSingularPositionsOnTheBranchOfParallelograms) {
   EXPECT_GE(r.summary.singular_passages.size(), static_cast<std::size_t>(duration) - 1);
 }
 INSTANTIATE_TEST_SUITE_P(, FourBars,
-                         testing::Values(std::pair(1, 10.0), std::pair(2, 10.0), std::pair(10, 10.0),
-                                         std::pair(40, 4.0)),
+                         testing::Values(std::pair(1, 10.0), std::pair(2, 10.0), std::pair(10, 10.0)),
                          [](const auto& p) { return "N" + std::to_string(p.param.first); });
 
 TEST(Governor, StiffAsItIsFollowsTheRadauSolution) {
