@@ -19,8 +19,8 @@ struct NameMeaning {
 /// Asked for every name that is no call of a function and not `pi`; gives nothing when the name is unknown.
 using NameReader = std::function<std::optional<NameMeaning>(const std::string& name)>;
 
-/// Reads an expression (core/expression.h has the grammar) by recursive descent. Throws InputError without a place that says at
-/// which character it went wrong. `known` are the names that an error may propose.
+/// Reads an expression (core/expression.h has the grammar) by recursive descent. Throws InputError without a
+/// place that says at which character it went wrong. `known` are the names that an error may propose.
 ExpressionProgram parse_expression(const std::string& text, const NameReader& read_name,
                                    const std::vector<std::string>& known);
 

@@ -53,8 +53,8 @@ struct Instruction {
   double number = 0;
 };
 
-/// An expression in postfix order, for a machine with a small stack. Written by ExpressionParser; grows by the member functions
-/// below, which work out what is constant.
+/// An expression in postfix order, for a machine with a small stack. Written by ExpressionParser; grows by
+/// the member functions below, which work out what is constant.
 class ExpressionProgram {
  public:
   static constexpr int kMostValues = 32;  ///< on the stack at once

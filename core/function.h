@@ -10,13 +10,13 @@
 
 namespace wishbone {
 
-/// A function of time and of further variables: a constant, a table of one of them, or an expression. Its values are for double,
-/// Jet2 and Dual, without allocation. Variable 0 is the time [s].
+/// A function of time and of further variables: a constant, a table of one of them, or an expression. Its
+/// values are for double, Jet2 and Dual, without allocation. Variable 0 is the time [s].
 class Function {
  public:
   static constexpr int kTime = 0;
-  /// Linear tables of time with more bends than this have no stop times: no integrator should halt at every sample of a long
-  /// measurement.
+  /// Linear tables of time with more bends than this have no stop times: no integrator should halt at every
+  /// sample of a long measurement.
   static constexpr std::size_t kMostStops = 1000;
 
   Function(double constant = 0) : law_(constant) {}  // implicit: a number is a constant function
@@ -37,8 +37,8 @@ class Function {
   const Table* table_of_time() const;
   /// Indices of the variables that it uses, ascending.
   std::vector<int> variables() const;
-  /// Times, in no order, at which a table bends, or a step(t, ...) of an expression begins or ends. Other kinks of expressions are
-  /// not known.
+  /// Times, in no order, at which a table bends, or a step(t, ...) of an expression begins or ends. Other
+  /// kinks of expressions are not known.
   std::vector<double> stop_times() const;
 
  private:

@@ -20,8 +20,8 @@ struct Jet2 {
   static Jet2 variable(double t) { return {t, 1.0, 0.0}; }
 };
 
-/// f(g) given f, f', f'' at g: (f o g)' = f' g', (f o g)'' = f'' g'^2 + f' g''. A constant g gives a constant, also where
-/// f has no slope.
+/// f(g) given f, f', f'' at g: (f o g)' = f' g', (f o g)'' = f'' g'^2 + f' g''. A constant g gives a
+/// constant, also where f has no slope.
 inline Jet2 chain(const Jet2& g, double f, double f1, double f2) {
   if (g.d1 == 0 && g.d2 == 0) return f;
   return {f, f1 * g.d1, f2 * g.d1 * g.d1 + f1 * g.d2};

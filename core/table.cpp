@@ -24,9 +24,11 @@ void check_points(std::string_view element, const std::vector<double>& x, const 
   }
 }
 
-/// Second derivatives of the not-a-knot cubic spline at its points; h are the steps and s the slopes between them:
+/// Second derivatives of the not-a-knot cubic spline at its points; h are the steps and s the slopes between
+/// them:
 ///     h_(i-1) M_(i-1) + 2 (h_(i-1) + h_i) M_i + h_i M_(i+1) = 6 (s_i - s_(i-1)),   i = 1 ... n - 2,
-/// and (M_1 - M_0)/h_0 = (M_2 - M_1)/h_1, likewise at the end. Gaussian elimination of the three diagonals, which dominate.
+/// and (M_1 - M_0)/h_0 = (M_2 - M_1)/h_1, likewise at the end. Gaussian elimination of the three diagonals,
+/// which dominate.
 std::vector<double> second_derivatives(const std::vector<double>& h, const std::vector<double>& s) {
   const std::size_t n = h.size() + 1;
   std::vector<double> M(n, 0.0);

@@ -8,8 +8,8 @@
 
 namespace wishbone {
 
-/// Force or torque along a joint's coordinate u that is a given function of time and signals, as of a motor or an actuator:
-/// f > 0 pushes u to grow. It stores no energy: all its power f u' counts as input.
+/// Force or torque along a joint's coordinate u that is a given function of time and signals, as of a motor
+/// or an actuator: f > 0 pushes u to grow. It stores no energy: all its power f u' counts as input.
 class JointDrive {
  public:
   /// @param force f [N m or N]

@@ -22,7 +22,8 @@ inline bool is_finite(const Dual& a) {
 }
 
 /// Value of a function of time and signals in a force element.
-/// @throws NumericsError naming the element and the time where the value, or one of its derivatives, is not finite
+/// @throws NumericsError naming the element and the time where the value, or one of its derivatives, is not
+///   finite
 template <class T>
 T load_value(const Function& function, const ForceInputT<T>& input, std::string_view element) {
   const T f = function(input.variables);

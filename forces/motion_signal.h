@@ -10,8 +10,8 @@
 
 namespace wishbone {
 
-/// A scalar of the motion by name, on which loads may depend: the coordinate of a gauge between two markers or its rate, or one
-/// world component of a marker's position or velocity.
+/// A scalar of the motion by name, on which loads may depend: the coordinate of a gauge between two markers
+/// or its rate, or one world component of a marker's position or velocity.
 class MotionSignal {
  public:
   enum class Quantity { position, speed };

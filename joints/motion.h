@@ -35,8 +35,9 @@ struct Ackermann {
   Side side = Side::kLeft;
 };
 
-/// A coordinate prescribed as a function of time: a start value plus a sum of smooth steps, a spline through points, or an
-/// expression of the time; optionally taken as a steering command and turned into the angle of one wheel. Derivatives are exact.
+/// A coordinate prescribed as a function of time: a start value plus a sum of smooth steps, a spline through
+/// points, or an expression of the time; optionally taken as a steering command and turned into the angle of
+/// one wheel. Derivatives are exact.
 class Motion {
  public:
   /// @throws InputError naming `element` when a step has no duration, the Ackermann geometry is not positive,
@@ -44,19 +45,20 @@ class Motion {
   Motion(std::string element, double start, std::vector<MotionStep> steps,
          std::optional<Ackermann> ackermann = std::nullopt);
 
-  /// @param law function of the time alone. The points of a table must span the run: what is measured at its ends is in general no
-  ///   rest, so they are not held
-  /// @throws InputError naming `element` for a linear table, which has no acceleration where it bends; for a function of more than
-  ///   the time; for an Ackermann geometry that is not positive
+  /// @param law function of the time alone. The points of a table must span the run: what is measured at its
+  ///   ends is in general no rest, so they are not held
+  /// @throws InputError naming `element` for a linear table, which has no acceleration where it bends; for a
+  ///   function of more than the time; for an Ackermann geometry that is not positive
   Motion(std::string element, Function law, std::optional<Ackermann> ackermann = std::nullopt);
 
-  /// @throws NumericsError naming the element and the time when the law has no value, rate or acceleration there, the time is outside
-  ///   of its table, or the inner wheel would stand across
+  /// @throws NumericsError naming the element and the time when the law has no value, rate or acceleration
+  ///   there, the time is outside of its table, or the inner wheel would stand across
   MotionValue at(double t) const;
 
-  /// Edges of the steps [s], ascending, each once: the third derivative jumps there, and a step between two evaluations would be
-  /// missed, so an integrator should stop. At the points of a spline the third derivative jumps too, but little, and there may be
-  /// many: they are left to the control of the error. Kinks of an expression are known where it calls step(t, ...) only.
+  /// Edges of the steps [s], ascending, each once: the third derivative jumps there, and a step between two
+  /// evaluations would be missed, so an integrator should stop. At the points of a spline the third
+  /// derivative jumps too, but little, and there may be many: they are left to the control of the error.
+  /// Kinks of an expression are known where it calls step(t, ...) only.
   std::vector<double> stop_times() const;
 
  private:

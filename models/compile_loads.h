@@ -6,7 +6,8 @@
 
 namespace wishbone {
 
-/// Puts the signals of a scene, its loads and its drives of joints into a SystemBuilder that has its bodies and joints.
+/// Puts the signals of a scene, its loads and its drives of joints into a SystemBuilder that has its bodies
+/// and joints.
 void add_loads(const Scene& scene, JointCompiler& joints, SystemBuilder& builder);
 
 }  // namespace wishbone

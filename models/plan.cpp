@@ -23,7 +23,8 @@ void sort_into(bool needed, std::string kept, std::string left_out, Plan& plan) 
 }
 
 void list_parts(const System& system, Plan& plan) {
-  const auto& [springs, tires, loads, joint_springs, joint_frictions, joint_limits, joint_drives] = system.forces;
+  const auto& [springs, tires, loads, joint_springs, joint_frictions, joint_limits, joint_drives] =
+      system.forces;
   sort_into(plan.elastic_coordinates > 0, fmt::format("elastic terms of {} modes", plan.elastic_coordinates),
             "elastic terms: no flexible body", plan);
   bool damped = false;

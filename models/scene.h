@@ -136,8 +136,8 @@ struct Scene {
   };
 
   enum class SignalType { kCoordinate, kDistance, kComponent };
-  /// A scalar of the motion that functions may use by name: the coordinate of a joint, the distance of two points, or a component
-  /// of a point's position in inertial axes; or the speed of one of these.
+  /// A scalar of the motion that functions may use by name: the coordinate of a joint, the distance of two
+  /// points, or a component of a point's position in inertial axes; or the speed of one of these.
   struct Signal {
     std::string name;
     SignalType type = SignalType::kCoordinate;
@@ -220,8 +220,8 @@ struct Scene {
     double duration = 0;  ///< [s]
     double change = 0;    ///< [rad] or [m]
   };
-  /// Prescribed joint coordinate: `start` plus the sum of the steps, or a function of the time; then the Ackermann map if there is
-  /// one.
+  /// Prescribed joint coordinate: `start` plus the sum of the steps, or a function of the time; then the
+  /// Ackermann map if there is one.
   struct Motion {
     std::string name;
     double start = 0;  ///< [rad] or [m]

@@ -30,11 +30,12 @@ void read_vehicle(const Value& section, Scene& scene);
 void read_analysis(const Value& section, Scene& scene);
 void read_output(const Value& section, Scene& scene);
 
-/// Checks that span sections: pinned joints fit into a tree, carried bodies have no velocity of their own, joints that close
-/// loops no initial coordinate.
+/// Checks that span sections: pinned joints fit into a tree, carried bodies have no velocity of their own,
+/// joints that close loops no initial coordinate.
 void check_topology(const Scene& scene);
 
-/// A coordinate of a joint that a gauge can measure, by the keys `joint` and, where the joint has several, `coordinate`.
+/// A coordinate of a joint that a gauge can measure, by the keys `joint` and, where the joint has several,
+/// `coordinate`.
 Scene::JointCoordinate read_joint_coordinate(const Mapping& keys, const Scene& scene);
 
 bool is_angle(const Scene::JointCoordinate& coordinate, const Scene& scene);
@@ -46,8 +47,8 @@ const Dimension& dimension_of(const Scene::Signal& signal, const Scene& scene);
 Function read_function(const Value& value, const Dimension& dimension, Scene& scene);
 /// Three of them, in a list.
 std::array<Function, 3> read_functions(const Value& value, const Dimension& dimension, Scene& scene);
-/// What the keys `expression` or `table` of a mapping give, if there is one of them. `usual` is how tables are interpolated that
-/// do not say it.
+/// What the keys `expression` or `table` of a mapping give, if there is one of them. `usual` is how tables
+/// are interpolated that do not say it.
 std::optional<Function> read_law(const Mapping& keys, const Dimension& dimension, Table::Interpolation usual,
                                  Scene& scene);
 

@@ -128,8 +128,8 @@ TEST(Expression, HasTheValuesOfAnIndependentParser) {
   }
 }
 
-// Along the curve x(s) = x + x' s + x'' s^2/2, and so on, Jet2 gives d/ds and Dual the gradient: df/ds = grad f . x'.
-// The second derivative is the one of the first, by central differences.
+// Along the curve x(s) = x + x' s + x'' s^2/2, and so on, Jet2 gives d/ds and Dual the gradient: df/ds = grad
+// f . x'. The second derivative is the one of the first, by central differences.
 TEST(Expression, DerivativesOfBothKindsAgree) {
   Formulas random(2);
   for (int i = 0; i < 1000; ++i) {

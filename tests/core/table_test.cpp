@@ -88,7 +88,8 @@ TEST(SplineTable, IsTwiceContinuouslyDifferentiableAtItsPoints) {
   }
 }
 
-// The error of the value is of fourth order in the distance of the points, up to the ends, that of the curvature of second.
+// The error of the value is of fourth order in the distance of the points, up to the ends, that of the
+// curvature of second.
 TEST(SplineTable, ConvergesWithFourthOrder) {
   const auto error = [](int steps, bool of_curvature) {
     const std::vector<double> x = even_points(0, 2, steps);

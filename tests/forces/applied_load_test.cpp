@@ -92,8 +92,11 @@ TEST(AppliedLoad, RejectsLoadsThatAreNotNumbers) {
 
 TEST(AppliedLoad, FailsInWordsWhereItHasNoValue) {
   const AppliedLoad load("push", 0, {{}, {expression("sqrt(gap)"), 0.0, 0.0}});
-  EXPECT_THAT(message_of<NumericsError>([&] { wrench_at<double>(load, {1.5, -1, 0}); }),
-              ::testing::StartsWith("push at t = 1.5 s: error: the load has no value or no derivative (got "));
+  EXPECT_THAT(
+      message_of<NumericsError>([&] {
+        wrench_at<double>(load, {1.5, -1, 0});
+      }),
+      ::testing::StartsWith("push at t = 1.5 s: error: the load has no value or no derivative (got "));
 }
 
 }  // namespace

@@ -74,7 +74,8 @@ TEST_F(Functions, AHarmonicLoadMovesACartAsItsClosedForm) {
     EXPECT_NEAR(r.u[i], 0.1 + 10.0 / (2 * 9) * (3 * r.t[i] - std::sin(3 * r.t[i])), 1e-8);
 }
 
-// f = -k u is a spring:   u = u0 cos(sqrt(k/m) t). A joint that closes the loop makes the form with exact Jacobians possible.
+// f = -k u is a spring:   u = u0 cos(sqrt(k/m) t). A joint that closes the loop makes the form with exact
+// Jacobians possible.
 TEST_F(Functions, ALoadOnASignalIsASpringInEveryForm) {
   const std::string scene = kCart + R"(signals:
   travel: {joint: slide}

@@ -20,8 +20,9 @@ struct Built {
   State state;
 };
 
-/// A cart on a slide and a rotor beside it, joined by nothing but a drive of the slide that depends on the angle of the rotor, and a
-/// force on the rotor that depends on its distance from the cart and on the cart's speed.
+/// A cart on a slide and a rotor beside it, joined by nothing but a drive of the slide that depends on the
+/// angle of the rotor, and a force on the rotor that depends on its distance from the cart and on the cart's
+/// speed.
 Built cart_and_rotor() {
   SystemBuilder b;
   const Pose at_cart{Matrix3::Identity(), Vector3(0.1, 0.2, 0)},
