@@ -4,10 +4,12 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <string>
 
 #include "models/compile.h"
 #include "models/scene_loader.h"
+#include "mutated_text.h"
 #include "solver/observer.h"
 #include "text_files.h"
 
@@ -204,6 +206,35 @@ motions:
   // what is recorded with the results gives the same motion
   const Scene again = load_scene(files_.write("again.yaml", scene.text));
   EXPECT_EQ(again.text, scene.text);
+}
+
+TEST_F(Functions, AreEitherReadOrRefusedWhateverTheyAreGiven) {
+  const std::string good = "wishbone: 1\n" + kCart + R"yaml(signals:
+  travel: {joint: slide}
+  gap: {from: {ground: [-1, 0, 0]}, to: {body: cart}, quantity: speed}
+loads:
+  push: {body: cart, force: [{expression: "step(t, 1, 0, 2, w) - stiffness*max(travel, gap^2)"}, 0, 0], axes: body}
+  motor: {joint: slide, force: {table: {of: travel, points: [[0, 1 kN], [20 mm, 2]], interpolation: spline}}}
+motions:
+  spare: {expression: "t > 1 && t < 2 ? sin(2*pi*t) : 0"}
+  steer: {table: {points: [[0, 0], [1, 0.1], [2, 0]]}}
+)yaml";
+  ASSERT_NO_THROW(compile(load_scene(files_.write("scene.yaml", good))));
+  constexpr Mutation kMutation{"[]{}:,-#&*!|>'\"%@`=\n \t.e0123456789~?<()+/^xt\x80\x00", 1, 4, 8};
+  int loaded = 0, refused = 0;
+  for (unsigned seed = 1; seed <= 2000; ++seed) {
+    std::mt19937 random(seed);
+    const auto file = files_.write("scene.yaml", mutated(good, kMutation, random));
+    try {
+      compile(load_scene(file));
+      ++loaded;
+    } catch (const InputError& e) {
+      ++refused;
+      EXPECT_FALSE(e.diagnostic().where.empty()) << "seed " << seed << ": " << e.what();
+    }  // anything else fails the test
+  }
+  EXPECT_GT(loaded, 100);
+  EXPECT_GT(refused, 500);
 }
 
 struct Refused {
