@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace wishbone {
 
@@ -160,12 +161,30 @@ inline Dual exp(const Dual& a) {
 inline Dual log(const Dual& a) {
   return chain(a, std::log(a.value), 1 / a.value);
 }
+inline Dual log10(const Dual& a) {
+  return chain(a, std::log10(a.value), 1 / (std::numbers::ln10 * a.value));
+}
+inline Dual sinh(const Dual& a) {
+  return chain(a, std::sinh(a.value), std::cosh(a.value));
+}
+inline Dual cosh(const Dual& a) {
+  return chain(a, std::cosh(a.value), std::sinh(a.value));
+}
 inline Dual tanh(const Dual& a) {
   const double f = std::tanh(a.value);
   return chain(a, f, 1 - f * f);
 }
+/// At the corner 0^n, n < 1, the derivative is taken as zero.
 inline Dual pow(const Dual& a, double n) {
-  return chain(a, std::pow(a.value, n), n * std::pow(a.value, n - 1));
+  const bool is_flat = n == 0 || (a.value == 0 && n < 1);
+  return chain(a, std::pow(a.value, n), is_flat ? 0.0 : n * std::pow(a.value, n - 1));
+}
+/// a^b; with a constant exponent defined for a < 0 too.
+inline Dual pow(const Dual& a, const Dual& b) {
+  if (b.d == Dual::Derivatives{}) return pow(a, b.value);
+  const double f = std::pow(a.value, b.value);
+  const double f_b = f == 0 ? 0 : f * std::log(a.value);
+  return chain(a, b, f, b.value * std::pow(a.value, b.value - 1), f_b);
 }
 inline Dual abs(const Dual& a) {
   return a.value < 0 ? -a : a;

@@ -1,63 +1,66 @@
 #include "core/expression.h"
 
 #include <fmt/format.h>
-#include <muParser.h>
 
+#include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/error.h"
+#include "core/expression_parser.h"
 
 namespace wishbone {
 namespace {
 
-/// Runs `step` on a parser for `expression` and turns muParser's errors into ours.
-template <class Step>
-auto with_parser(const std::string& expression, Step step) {
-  constexpr std::size_t kLongest = 1000;
-  if (expression.size() > kLongest) {
-    throw InputError({"", fmt::format("the expression is longer than {} characters", kLongest), "",
-                      "divide it over several parameters"});
-  }
-  try {
-    mu::Parser parser;
-    parser.DefineConst("pi", std::numbers::pi);
-    parser.SetExpr(expression);
-    return step(parser);
-  } catch (const mu::Parser::exception_type& e) {
-    std::string message = e.GetMsg();
-    if (message.ends_with('.')) message.pop_back();
-    throw InputError({"", "the expression cannot be evaluated: " + message, fmt::format("'= {}'", expression),
-                      "write a formula of parameters, such as = speed / radius"});
-  }
+std::vector<std::string> known_names(const std::vector<std::string>& variables,
+                                     const std::map<std::string, double>& constants) {
+  std::vector<std::string> names = variables;
+  for (const auto& [name, _] : constants) names.push_back(name);
+  names.emplace_back("pi");
+  return names;
 }
 
 }  // namespace
 
+Expression::Expression(const std::string& text, const std::vector<std::string>& variables,
+                       const std::map<std::string, double>& constants)
+    : text_(text) {
+  const auto read_name = [&](const std::string& name) -> std::optional<NameMeaning> {
+    const auto variable = std::find(variables.begin(), variables.end(), name);
+    const auto constant = constants.find(name);
+    if (variable != variables.end() && constant != constants.end()) {
+      throw InputError({"", fmt::format("'{}' is a variable of this expression and a parameter too", name),
+                        fmt::format("'{}'", text), "rename the parameter"});
+    }
+    if (variable != variables.end())
+      return NameMeaning{true, static_cast<int>(variable - variables.begin()), 0};
+    if (constant != constants.end()) return NameMeaning{false, 0, constant->second};
+    return std::nullopt;
+  };
+  program_ = parse_expression(text, read_name, known_names(variables, constants));
+}
+
 std::vector<std::string> names_in_expression(const std::string& expression) {
-  return with_parser(expression, [](mu::Parser& parser) {
-    std::vector<std::string> names;
-    for (const auto& [name, _] : parser.GetUsedVar()) names.push_back(name);
-    return names;
-  });
+  std::vector<std::string> names;
+  const auto collect = [&](const std::string& name) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    return NameMeaning{true, 0, 0};
+  };
+  parse_expression(expression, collect, {});
+  return names;
 }
 
 double evaluate_expression(const std::string& expression, const std::map<std::string, double>& values) {
-  return with_parser(expression, [&](mu::Parser& parser) {
-    for (const auto& [name, value] : values) parser.DefineConst(name, value);
-    int count = 0;
-    const double* results = parser.Eval(count);
-    if (count != 1) {
-      throw InputError({"", fmt::format("the expression has {} values", count),
-                        fmt::format("'= {}'", expression),
-                        "write one formula, without commas outside functions"});
-    }
-    if (!std::isfinite(results[0])) {
-      throw InputError({"", "the value of the expression is not finite", fmt::format("'= {}'", expression),
-                        "look for a division by zero or a root of a negative number"});
-    }
-    return results[0];
-  });
+  const double value = Expression(expression, {}, values)(std::span<const double>());
+  if (!std::isfinite(value)) {
+    throw InputError({"", "the value of the expression is not finite", fmt::format("'= {}'", expression),
+                      "look for a division by zero or a root of a negative number"});
+  }
+  return value;
+}
+
+bool is_expression_word(const std::string& name) {
+  const auto& functions = expression_functions();
+  return name == "pi" || std::binary_search(functions.begin(), functions.end(), name);
 }
 
 }  // namespace wishbone

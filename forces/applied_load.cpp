@@ -2,29 +2,70 @@
 
 #include <utility>
 
-#include "core/dual.h"
 #include "core/require.h"
+#include "forces/load_function.h"
 
 namespace wishbone {
+namespace {
 
-AppliedLoad::AppliedLoad(std::string name, MarkerIndex marker, Wrench load, LoadAxes axes)
-    : name_(std::move(name)), marker_(marker), load_(std::move(load)), axes_(axes) {
-  require(load_.f.allFinite(), name_, "the force must be finite", load_.f.sum(), "give its components in N");
-  require(load_.t.allFinite(), name_, "the moment must be finite", load_.t.sum(),
-          "give its components in N m");
+void check(const std::array<Function, 3>& components, const std::string& element, std::string_view rule,
+           std::string_view remedy) {
+  for (const Function& component : components)
+    if (const auto constant = component.constant())
+      require(std::isfinite(*constant), element, rule, *constant, remedy);
 }
 
-std::vector<MarkerIndex> AppliedLoad::markers() const {
-  return {marker_};
+template <class T>
+Vector3T<T> values(const std::array<Function, 3>& components, const ForceInputT<T>& input,
+                   const std::string& element) {
+  return {load_value(components[0], input, element), load_value(components[1], input, element),
+          load_value(components[2], input, element)};
+}
+
+}  // namespace
+
+AppliedLoad::AppliedLoad(std::string name, MarkerIndex marker, const Wrench& load, LoadAxes axes)
+    : AppliedLoad(std::move(name), marker,
+                  LoadComponents{{load.t.x(), load.t.y(), load.t.z()}, {load.f.x(), load.f.y(), load.f.z()}},
+                  axes) {}
+
+AppliedLoad::AppliedLoad(std::string name, MarkerIndex marker, LoadComponents load, LoadAxes axes)
+    : name_(std::move(name)), marker_(marker), load_(std::move(load)), axes_(axes) {
+  check(load_.f, name_, "the force must be finite", "give its components in N");
+  check(load_.t, name_, "the moment must be finite", "give its components in N m");
+}
+
+template <class Use>
+void AppliedLoad::for_each_component(Use use) const {
+  for (const auto* components : {&load_.f, &load_.t})
+    for (const Function& component : *components) use(component);
+}
+
+std::vector<int> AppliedLoad::variables() const {
+  std::vector<int> all;
+  for_each_component([&](const Function& component) {
+    const std::vector<int> used = component.variables();
+    all.insert(all.end(), used.begin(), used.end());
+  });
+  return all;
+}
+
+std::vector<double> AppliedLoad::stop_times() const {
+  std::vector<double> all;
+  for_each_component([&](const Function& component) {
+    const std::vector<double> times = component.stop_times();
+    all.insert(all.end(), times.begin(), times.end());
+  });
+  return all;
 }
 
 template <class T>
 void AppliedLoad::apply(const ForceInputT<T>& input, ForceOutputT<T>& output) const {
   const MarkerStateT<T>& M = input.markers[marker_];
-  Vector3T<T> f = load_.f.cast<T>(), t = load_.t.cast<T>();
+  Vector3T<T> f = values(load_.f, input, name_), t = values(load_.t, input, name_);
   if (axes_ == LoadAxes::kMarker) {
-    f = M.R_WM * load_.f;
-    t = M.R_WM * load_.t;
+    f = (M.R_WM * f).eval();
+    t = (M.R_WM * t).eval();
   }
   output.wrenches[marker_].t += t;
   output.wrenches[marker_].f += f;

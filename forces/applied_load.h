@@ -1,36 +1,53 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
+#include "core/function.h"
 #include "forces/force_element.h"
 
 namespace wishbone {
 
-/// In which axes a load is constant.
+/// In which axes the components of a load are given.
 enum class LoadAxes {
   kWorld,  ///< inertial: a dead load
   kMarker  ///< fixed to the marker: a follower load
 };
 
-/// Constant force and moment at one marker. It stores no energy: all its power counts as input.
+/// Components of a load, each a function of time and signals: t [N m] about the marker's origin, f [N].
+struct LoadComponents {
+  std::array<Function, 3> t, f;
+};
+
+/// Force and moment at one marker. It stores no energy: all its power counts as input.
 class AppliedLoad {
  public:
-  /// @param load t [N m] and f [N], components in `axes`
+  /// A constant load: t [N m] and f [N], components in `axes`.
   /// @throws InputError naming the element when a component is not finite
-  AppliedLoad(std::string name, MarkerIndex marker, Wrench load, LoadAxes axes = LoadAxes::kWorld);
+  AppliedLoad(std::string name, MarkerIndex marker, const Wrench& load, LoadAxes axes = LoadAxes::kWorld);
+
+  /// @throws InputError naming the element when a constant component is not finite
+  AppliedLoad(std::string name, MarkerIndex marker, LoadComponents load, LoadAxes axes = LoadAxes::kWorld);
 
   const std::string& name() const { return name_; }
   int state_count() const { return 0; }
-  std::vector<MarkerIndex> markers() const;
+  std::vector<MarkerIndex> markers() const { return {marker_}; }
+  std::vector<int> variables() const;
+  std::vector<double> stop_times() const;
+
+  /// @throws NumericsError naming the element and the time when a component is not finite
   template <class T>
   void apply(const ForceInputT<T>& input, ForceOutputT<T>& output) const;
   double energy(const ForceInput&) const { return 0.0; }
 
  private:
+  template <class Use>
+  void for_each_component(Use use) const;
+
   std::string name_;
   MarkerIndex marker_;
-  Wrench load_;
+  LoadComponents load_;
   LoadAxes axes_;
 };
 

@@ -14,6 +14,8 @@ struct ForceInputT {
   std::span<const T> states;  ///< states of the element's own (tire lag, ...); empty when it has none
   int segment = 0;   ///< the element's discrete state (road segment of a tire, ...), changed only by events
   double angle = 0;  ///< the angle that the element's gauge had last, from which turns are counted [rad]
+  /// Of functions (core/function.h): the time, then the system's signals (forces/motion_signal.h).
+  std::span<const T> variables = {};
 };
 using ForceInput = ForceInputT<double>;
 
@@ -33,7 +35,14 @@ using ForceOutput = ForceOutputT<double>;
 ///     void apply(const ForceInputT<T>&, ForceOutputT<T>&) const;  // adds wrenches, sets power and state rates; no allocation
 ///     double energy(const ForceInput&) const;                // recoverable energy stored now [J]; zero if none
 ///     int state_count() const;                               // number of states of its own
+///     std::vector<MarkerIndex> markers() const;              // that it looks at or acts on
 ///     const std::string& name() const;
+///
+/// and, where it has them,
+///
+///     std::vector<int> variables() const;                    // of its functions, see ForceInputT::variables
+///     std::vector<double> stop_times() const;                // at which it is only piecewise smooth [s]
+///     double angle(const ForceInput&) const;                 // of its gauge, from which turns are counted [rad]
 ///
 /// Throws NumericsError naming itself, the time and the value when its law is undefined at the given state.
 

@@ -1,10 +1,14 @@
 #include "joints/motion.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
-#include "core/jet2.h"
+#include "core/distinct_times.h"
+#include "core/error.h"
 #include "core/require.h"
 
 namespace wishbone {
@@ -32,50 +36,96 @@ double largest_command(double start, const std::vector<MotionStep>& steps) {
   return std::max(std::abs(up), std::abs(down));
 }
 
+bool is_finite(const Jet2& x) {
+  return std::isfinite(x.value) && std::isfinite(x.d1) && std::isfinite(x.d2);
+}
+
 }  // namespace
 
-Motion::Motion(std::string_view element, double start, std::vector<MotionStep> steps,
+Motion::Motion(std::string element, double start, std::vector<MotionStep> steps,
                std::optional<Ackermann> ackermann)
-    : start_(start), steps_(std::move(steps)), ackermann_(ackermann) {
-  require(std::isfinite(start), element, "the start value must be finite", start, "give it in rad or m");
+    : element_(std::move(element)), start_(start), steps_(std::move(steps)), ackermann_(ackermann) {
+  require(std::isfinite(start), element_, "the start value must be finite", start, "give it in rad or m");
   for (const MotionStep& s : steps_) {
-    require(s.duration > 0, element, "a step needs a positive duration", s.duration,
+    require(s.duration > 0, element_, "a step needs a positive duration", s.duration,
             "a jump has no acceleration: spread it over a short time");
-    require(std::isfinite(s.time + s.duration + s.change), element, "a step must be finite", s.change,
+    require(std::isfinite(s.time + s.duration + s.change), element_, "a step must be finite", s.change,
             "give its time, duration and change");
   }
   if (!ackermann_) return;
-  require(ackermann_->wheelbase > 0, element, "the wheelbase must be positive", ackermann_->wheelbase,
-          "give it in m");
-  require(ackermann_->track >= 0, element, "the track must not be negative", ackermann_->track,
-          "give it in m");
-  const double limit =
-      std::min(std::atan2(2 * ackermann_->wheelbase, ackermann_->track), 0.5 * std::numbers::pi);
-  const double command = largest_command(start_, steps_);
-  require(command < limit, element,
-          "the steering command must stay below the angle where the inner wheel stands across", command,
+  check_ackermann();
+  const double largest = largest_command(start_, steps_);
+  require(largest < steering_limit(), element_,
+          "the steering command must stay below the angle where the inner wheel stands across", largest,
           "steer less, in radians");
 }
 
-MotionValue Motion::at(double t) const {
+Motion::Motion(std::string element, Function law, std::optional<Ackermann> ackermann)
+    : element_(std::move(element)), law_(std::move(law)), ackermann_(ackermann) {
+  for (const int variable : law_->variables())
+    require(variable == Function::kTime, element_, "a motion must be a function of the time alone", variable,
+            "let a force depend on signals instead");
+  if (const Table* table = law_->table_of_time())
+    require(table->interpolation() == Table::Interpolation::spline, element_,
+            "a linear table has no acceleration at its points", table->first(),
+            "interpolate it by a spline, or write a motion of steps");
+  if (ackermann_) check_ackermann();
+}
+
+void Motion::check_ackermann() const {
+  require(ackermann_->wheelbase > 0, element_, "the wheelbase must be positive", ackermann_->wheelbase,
+          "give it in m");
+  require(ackermann_->track >= 0, element_, "the track must not be negative", ackermann_->track,
+          "give it in m");
+}
+
+double Motion::steering_limit() const {
+  return std::min(std::atan2(2 * ackermann_->wheelbase, ackermann_->track), 0.5 * std::numbers::pi);
+}
+
+Jet2 Motion::command(double t) const {
   const Jet2 time = Jet2::variable(t);
-  Jet2 x = start_;
-  for (const MotionStep& s : steps_) x = x + s.change * smooth_step((time - s.time) / s.duration);
-  if (ackermann_) x = wheel_angle(*ackermann_, x);
+  if (!law_) {
+    Jet2 x = start_;
+    for (const MotionStep& s : steps_) x = x + s.change * smooth_step((time - s.time) / s.duration);
+    return x;
+  }
+  const Table* table = law_->table_of_time();
+  if (!table) return (*law_)(std::span(&time, 1));
+  const double inside = std::clamp(t, table->first(), table->last());
+  if (std::abs(t - inside) > 1e-9 * (table->last() - table->first()))
+    fail("the table of the motion does not reach this time", t, inside,
+         "give points for the whole run: at an end the motion need not rest");
+  return (*table)(Jet2::variable(inside));
+}
+
+MotionValue Motion::at(double t) const {
+  Jet2 x = command(t);
+  if (ackermann_) {
+    if (law_ && !(std::abs(x.value) < steering_limit()))
+      fail("the steering command reaches the angle where the inner wheel stands across", t, x.value,
+           "steer less, in radians");
+    x = wheel_angle(*ackermann_, x);
+  }
+  if (!is_finite(x))
+    fail("the motion has no value, rate or acceleration", t, x.value,
+         "look for a root of zero, a division by zero or a jump in its expression");
   return {x.value, x.d1, x.d2};
+}
+
+void Motion::fail(const std::string& what, double t, double value, const std::string& remedy) const {
+  throw NumericsError(
+      {fmt::format("{} at t = {:g} s", element_, t), what, fmt::format("{:g}", value), remedy});
 }
 
 std::vector<double> Motion::stop_times() const {
   std::vector<double> times;
+  if (law_ && !law_->table_of_time()) times = law_->stop_times();
   for (const MotionStep& s : steps_) {
     times.push_back(s.time);
     times.push_back(s.time + s.duration);
   }
-  std::sort(times.begin(), times.end());
-  // edges that differ by rounding alone are one: no integrator can step between them
-  const auto same = [](double a, double b) { return b - a <= 1e-12 * std::max(1.0, std::abs(b)); };
-  times.erase(std::unique(times.begin(), times.end(), same), times.end());
-  return times;
+  return distinct_times(std::move(times));
 }
 
 }  // namespace wishbone

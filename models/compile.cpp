@@ -9,6 +9,7 @@
 #include "identification/free_free_modes.h"
 #include "identification/mode_set_of.h"
 #include "models/compile_joints.h"
+#include "models/compile_loads.h"
 #include "models/scene_attachment.h"
 #include "solver/system_builder.h"
 
@@ -51,9 +52,7 @@ class Compiler {
       builder_.add_force(SpringDamper(spring.name, marker(spring.from), marker(spring.to), spring.stiffness,
                                       spring.damping, spring.free_length));
     for (const Scene::Tire& tire : scene_.tires) add_tire(tire);
-    for (const Scene::Load& load : scene_.loads)
-      builder_.add_force(AppliedLoad(load.name, marker(load.point), {load.moment, load.force},
-                                     load.in_body_axes ? LoadAxes::kMarker : LoadAxes::kWorld));
+    add_loads(scene_, joints_, builder_);
     CompiledScene compiled;
     compiled.identified = std::move(identified_);
     std::tie(compiled.system, compiled.initial) = std::move(builder_).build();

@@ -67,7 +67,9 @@ Motion JointCompiler::motion(int index) const {
     ackermann = Ackermann{
         motion.ackermann->wheelbase, motion.ackermann->track,
         motion.ackermann->side == Scene::Side::kLeft ? Ackermann::Side::kLeft : Ackermann::Side::kRight};
-  return {"motion '" + motion.name + "'", motion.start, std::move(steps), ackermann};
+  const std::string element = "motion '" + motion.name + "'";
+  return motion.law ? Motion(element, *motion.law, ackermann)
+                    : Motion(element, motion.start, std::move(steps), ackermann);
 }
 
 /// The joint from its first- to its second-named body, axes in those of the second.

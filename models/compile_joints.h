@@ -24,9 +24,12 @@ class JointCompiler {
   /// The body that a tree joint carries (index in the scene).
   int carried_body(int joint) const;
 
- private:
-  MarkerIndex marker(const Scene::Point& point, const Matrix3& R_DM);
+  /// A new marker at a point, with axes given in the design frame.
+  MarkerIndex marker(const Scene::Point& point, const Matrix3& R_DM = Matrix3::Identity());
+  /// The markers of a joint on its first- and its second-named body, between which its coordinates are measured.
   std::pair<MarkerIndex, MarkerIndex> markers(int joint);
+
+ private:
   Matrix3 second_axes(const Scene::Joint& joint) const;
   TreeJoint tree_joint(const Scene::Joint& joint) const;
   CutJoint cut_joint(const Scene::Joint& joint) const;

@@ -23,7 +23,8 @@ void sort_into(bool needed, std::string kept, std::string left_out, Plan& plan) 
 }
 
 void list_parts(const System& system, Plan& plan) {
-  const auto& [springs, tires, loads, joint_springs, joint_frictions, joint_limits] = system.forces;
+  const auto& [springs, tires, loads, joint_springs, joint_frictions, joint_limits, joint_drives] =
+      system.forces;
   sort_into(plan.elastic_coordinates > 0, fmt::format("elastic terms of {} modes", plan.elastic_coordinates),
             "elastic terms: no flexible body", plan);
   bool damped = false;
@@ -42,6 +43,7 @@ void list_parts(const System& system, Plan& plan) {
               plan);
     sort_into(event_count(system) > 0, "events at road edges", "events: the road has no edge", plan);
   }
+  if (!joint_drives.empty()) plan.kept.push_back(fmt::format("{} drives of joints", joint_drives.size()));
   sort_into(!loads.empty(), fmt::format("{} loads", loads.size()), "loads: none", plan);
   sort_into(system.gravity.norm() > 0, "gravity", "gravity: zero", plan);
 }

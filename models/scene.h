@@ -1,10 +1,13 @@
 #pragma once
 
+#include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/function.h"
 #include "core/source.h"
 #include "core/spatial.h"
 #include "joints/joint_kind.h"
@@ -132,13 +135,34 @@ struct Scene {
     Source where;
   };
 
-  /// Constant force at a point and constant moment.
+  enum class SignalType { kCoordinate, kDistance, kComponent };
+  /// A scalar of the motion that functions may use by name: the coordinate of a joint, the distance of two
+  /// points, or a component of a point's position in inertial axes; or the speed of one of these.
+  struct Signal {
+    std::string name;
+    SignalType type = SignalType::kCoordinate;
+    JointCoordinate of;  ///< of a coordinate
+    Point from, to;      ///< of a distance; a component is that of `from`
+    int axis = 0;        ///< of a component: 0 x, 1 y, 2 z
+    bool is_speed = false;
+    Source where;
+  };
+
+  /// Force at a point and moment: components are functions of the time and the signals.
   struct Load {
     std::string name;
-    Point point;                       ///< the mass centre unless named
-    Vector3 force = Vector3::Zero();   ///< [N]
-    Vector3 moment = Vector3::Zero();  ///< [N m]
-    bool in_body_axes = false;         ///< otherwise inertial axes
+    Point point;                     ///< the mass centre unless named
+    std::array<Function, 3> force;   ///< [N]
+    std::array<Function, 3> moment;  ///< [N m]
+    bool in_body_axes = false;       ///< otherwise inertial axes
+    Source where;
+  };
+
+  /// Force or moment along the coordinate of a joint, > 0 pushes it to grow: a function of the time and the signals.
+  struct Drive {
+    std::string name;
+    JointCoordinate along;
+    Function force;  ///< [N m] or [N]
     Source where;
   };
 
@@ -196,11 +220,13 @@ struct Scene {
     double duration = 0;  ///< [s]
     double change = 0;    ///< [rad] or [m]
   };
-  /// Prescribed joint coordinate: `start` plus the sum of the steps, then the Ackermann map if there is one.
+  /// Prescribed joint coordinate: `start` plus the sum of the steps, or a function of the time; then the
+  /// Ackermann map if there is one.
   struct Motion {
     std::string name;
     double start = 0;  ///< [rad] or [m]
     std::vector<MotionStep> steps;
+    std::optional<Function> law;  ///< instead of start and steps
     std::optional<Ackermann> ackermann;
     Source where;
   };
@@ -239,16 +265,20 @@ struct Scene {
     Source where;
   };
 
-  std::vector<std::string> data_files;  ///< that identifications read
+  std::vector<std::string> data_files;  ///< that identifications and tables read
   std::string title;
-  std::string text;              ///< the resolved document as YAML; loading it gives the same scene
+  std::string text;  ///< the resolved document as YAML; loading it gives the same scene
+  std::map<std::string, double>
+      parameters;                ///< those that are numbers or truth values, in SI: for expressions
   Vector3 gravity{0, 0, -9.81};  ///< inertial axes [m/s2]
   Pose X_WD;                     ///< placement of the design frame
   std::vector<Body> bodies;
   std::vector<Joint> joints;
   std::vector<Closure> closures;
   std::vector<Spring> springs;
+  std::vector<Signal> signals;
   std::vector<Load> loads;
+  std::vector<Drive> drives;
   std::vector<TireModel> tire_models;
   std::vector<Tire> tires;
   std::optional<Road> road;  ///< always there when there are tires

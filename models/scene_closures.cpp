@@ -122,6 +122,11 @@ Scene::JointCoordinate read_joint_coordinate(const Mapping& keys, const Scene& s
           index_of(names, which ? *which : keys.required("coordinate"), "the coordinates of the joint")};
 }
 
+bool is_angle(const Scene::JointCoordinate& coordinate, const Scene& scene) {
+  const Scene::Joint& joint = scene.joints[static_cast<std::size_t>(coordinate.joint)];
+  return info(joint.kind).coordinates[static_cast<std::size_t>(coordinate.coordinate)].is_angle;
+}
+
 void read_closures(const Value& section, const std::vector<std::string>& motion_names, Scene& scene) {
   for (const auto& [name, value] : section.named())
     scene.closures.push_back(read_closure(name, value, motion_names, scene));

@@ -25,22 +25,6 @@ Scene::Spring read_spring(const std::string& name, const Value& value, const Sce
   return spring;
 }
 
-Scene::Load read_load(const std::string& name, const Value& value, const Scene& scene) {
-  const Mapping keys(value, {"body", "at", "node", "force", "moment", "axes"});
-  Scene::Load load;
-  load.name = name;
-  load.where = value.where();
-  load.point = read_point(scene, read_body(scene, keys.required("body")), keys.optional("at"),
-                          keys.optional("node"), value);
-  if (!keys.has("force") && !keys.has("moment")) keys.refuse("the load is empty", "give 'force' or 'moment'");
-  if (const auto force = keys.optional("force")) load.force = force->vector3(kForce);
-  if (const auto moment = keys.optional("moment")) load.moment = moment->vector3(kMoment);
-  if (const auto axes = keys.optional("axes")) {
-    load.in_body_axes = axes->choice<bool>({{"inertial", false}, {"body", true}}, "the axes of a load");
-  }
-  return load;
-}
-
 Scene::TireModel read_tire_model(const std::string& name, const Value& value) {
   const Mapping keys(
       value, {"form", "radius", "vertical_stiffness", "damping_ratio", "mass", "slip_stiffness",
@@ -112,10 +96,6 @@ Scene::Point read_end(const Scene& scene, const Value& value) {
 
 void read_springs(const Value& section, Scene& scene) {
   for (const auto& [name, value] : section.named()) scene.springs.push_back(read_spring(name, value, scene));
-}
-
-void read_loads(const Value& section, Scene& scene) {
-  for (const auto& [name, value] : section.named()) scene.loads.push_back(read_load(name, value, scene));
 }
 
 void read_tire_models(const Value& section, Scene& scene) {

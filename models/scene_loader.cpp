@@ -1,6 +1,7 @@
 #include "models/scene_loader.h"
 
 #include "core/document.h"
+#include "core/parameters.h"
 #include "core/yaml.h"
 #include "models/scene_sections.h"
 
@@ -28,6 +29,18 @@ void read_header(const Mapping& root, Scene& scene) {
   if (const auto placement = root.optional("placement")) scene.X_WD = read_placement(*placement);
 }
 
+/// What expressions of functions can calculate with.
+void read_parameters(const Value& section, Scene& scene) {
+  for (const auto& [name, value] : section.named()) {
+    const YamlNode& scalar = *value.node();
+    if (is_boolean(scalar)) {
+      scene.parameters[name] = value.boolean() ? 1.0 : 0.0;
+    } else if (!scalar.quoted && looks_like_number(scalar.text)) {
+      scene.parameters[name] = located(value.where(), [&] { return parse_quantity(scalar.text).value; });
+    }
+  }
+}
+
 std::vector<std::string> names_in(const std::optional<Value>& section) {
   std::vector<std::string> names;
   if (section) {
@@ -44,9 +57,10 @@ Scene load_scene(const std::filesystem::path& path, const std::vector<std::strin
   const Mapping root(
       Value(document, document->where),
       {"wishbone", "title", "parameters", "gravity", "placement", "bodies", "joints", "closures", "springs",
-       "loads", "tire_models", "tires", "road", "motions", "vehicle", "analysis", "output"});
+       "signals", "loads", "tire_models", "tires", "road", "motions", "vehicle", "analysis", "output"});
   Scene scene;
   scene.text = dump_yaml(*document);
+  if (const auto parameters = root.optional("parameters")) read_parameters(*parameters, scene);
   read_header(root, scene);
   const auto read = [&](std::string_view key, auto reader) {
     if (const auto section = root.optional(key)) reader(*section, scene);
@@ -56,6 +70,7 @@ Scene load_scene(const std::filesystem::path& path, const std::vector<std::strin
   if (const auto joints = root.optional("joints")) read_joints(*joints, motion_names, scene);
   check_topology(scene);
   if (const auto closures = root.optional("closures")) read_closures(*closures, motion_names, scene);
+  read("signals", read_signals);
   read("motions", read_motions);
   read("springs", read_springs);
   read("loads", read_loads);
@@ -64,6 +79,7 @@ Scene load_scene(const std::filesystem::path& path, const std::vector<std::strin
   read("tires", read_tires);
   read("vehicle", read_vehicle);
   read("analysis", read_analysis);
+  check_motions(scene);
   read("output", read_output);
   return scene;
 }

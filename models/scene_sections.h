@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,6 +19,7 @@ namespace wishbone::scene_sections {
 void read_bodies(const Value& section, Scene& scene);
 void read_joints(const Value& section, const std::vector<std::string>& motion_names, Scene& scene);
 void read_closures(const Value& section, const std::vector<std::string>& motion_names, Scene& scene);
+void read_signals(const Value& section, Scene& scene);
 void read_springs(const Value& section, Scene& scene);
 void read_loads(const Value& section, Scene& scene);
 void read_tire_models(const Value& section, Scene& scene);
@@ -28,12 +30,30 @@ void read_vehicle(const Value& section, Scene& scene);
 void read_analysis(const Value& section, Scene& scene);
 void read_output(const Value& section, Scene& scene);
 
-/// Checks that span sections: pinned joints fit into a tree, carried bodies have no velocity of their own, joints that close
-/// loops no initial coordinate.
+/// Checks that span sections: pinned joints fit into a tree, carried bodies have no velocity of their own,
+/// joints that close loops no initial coordinate.
 void check_topology(const Scene& scene);
 
-/// A coordinate of a joint that a gauge can measure, by the keys `joint` and, where the joint has several, `coordinate`.
+/// A coordinate of a joint that a gauge can measure, by the keys `joint` and, where the joint has several,
+/// `coordinate`.
 Scene::JointCoordinate read_joint_coordinate(const Mapping& keys, const Scene& scene);
+
+bool is_angle(const Scene::JointCoordinate& coordinate, const Scene& scene);
+
+/// Of the numbers that a signal gives.
+const Dimension& dimension_of(const Scene::Signal& signal, const Scene& scene);
+
+/// A number, or a function of the time and the signals: {expression: ...} or {table: ...}.
+Function read_function(const Value& value, const Dimension& dimension, Scene& scene);
+/// Three of them, in a list.
+std::array<Function, 3> read_functions(const Value& value, const Dimension& dimension, Scene& scene);
+/// What the keys `expression` or `table` of a mapping give, if there is one of them. `usual` is how tables
+/// are interpolated that do not say it.
+std::optional<Function> read_law(const Mapping& keys, const Dimension& dimension, Table::Interpolation usual,
+                                 Scene& scene);
+
+/// Checks that tables of motions span the run.
+void check_motions(const Scene& scene);
 
 /// `ground: [x, y, z]` or a point of a body, as springs name their ends.
 Scene::Point read_end(const Scene& scene, const Value& value);

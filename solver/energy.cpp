@@ -46,7 +46,8 @@ template <class T>
 WorkT<T> calc_work_rate(const System& system, double t, const VectorXT<T>& lambda, const Evaluation<T>& ev) {
   WorkT<T> rate;
   for_each_force(system, [&](const auto& element, int index) {
-    if constexpr (std::is_same_v<std::decay_t<decltype(element)>, AppliedLoad>)
+    using Element = std::decay_t<decltype(element)>;
+    if constexpr (std::is_same_v<Element, AppliedLoad> || std::is_same_v<Element, JointDrive>)
       rate.input += ev.element_powers[index];
     else
       rate.loss -= ev.element_powers[index];

@@ -37,6 +37,7 @@ struct Memory {
   std::vector<double> force_angles;  ///< of the force elements' gauges, from which turns are counted [rad]
   std::vector<double> closure_angles;   ///< of the closures' gauges [rad]
   std::vector<double> measured_angles;  ///< of System::measured [rad or m]
+  std::vector<double> signal_values;    ///< of System::signals, from which their turns are counted
 };
 
 /// One evaluation of the equations of motion in residual form (inverse dynamics), for the scalar T: double, or Dual where
@@ -51,6 +52,7 @@ struct Evaluation {
   std::vector<MarkerAccelerationT<T>> marker_accelerations;  ///< of the closures' markers
   std::vector<WrenchT<T>> wrenches;                          ///< of force elements, on the markers
   std::vector<T> element_powers;                             ///< of each force element [W]
+  std::vector<T> variables;                                  ///< of functions: the time and the signals
   VectorXT<T> x_rate;                                        ///< rates of the force elements' states
   VectorXT<T> Phi, Phi_rate, Phi_dd;  ///< of all closure rows: residual, its rate, its second rate
   Matrix6XT<T> W;                     ///< unit wrenches of the rows on their markers (Closure::column_start)

@@ -24,6 +24,14 @@ void add_wrench(const System& system, MarkerIndex i, const Vector3T<T>& t, const
   }
 }
 
+/// The time and the signals, from the markers' states.
+template <class T>
+void update_variables(const System& system, double t, Evaluation<T>& ev) {
+  ev.variables[0] = T(t);
+  for (std::size_t i = 0; i < system.signals.size(); ++i)
+    ev.variables[i + 1] = system.signals[i].value<T>(ev.markers, ev.memory.signal_values[i]);
+}
+
 }  // namespace
 
 template <class T>
@@ -37,6 +45,7 @@ void apply_forces(const System& system, double t, const VectorXT<T>& x, Evaluati
   clear_loads(ev);
   for (WrenchT<T>& w : ev.wrenches) w = WrenchT<T>{};
 
+  update_variables(system, t, ev);
   int x_start = 0;
   for_each_force(system, [&](const auto& element, int index) {
     const int n = element.state_count();
@@ -66,7 +75,7 @@ void add_closure_loads(const System& system, const VectorXT<T>& lambda, Evaluati
 }
 
 bool counts_turns(const System& system) {
-  bool any = system.n_gauges > 0 || !system.measured.empty();
+  bool any = system.n_gauges > 0 || !system.measured.empty() || !system.signals.empty();
   for_each_force(system, [&](const auto& element, int) {
     if constexpr (requires(ForceInput input) { element.angle(input); }) any = true;
   });
@@ -82,6 +91,10 @@ void remember_angles(const System& system, const State& state, Evaluation<double
     x_start += element.state_count();
   });
   remember_closure_angles(system, ev);
+  for (std::size_t i = 0; i < system.signals.size(); ++i) {
+    double& value = ev.memory.signal_values[i];
+    value = system.signals[i].value<double>(ev.markers, value);
+  }
   for (std::size_t i = 0; i < system.measured.size(); ++i) {
     const MeasuredCoordinate& c = system.measured[i];
     double& angle = ev.memory.measured_angles[i];

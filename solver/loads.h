@@ -26,7 +26,8 @@ ForceInputT<T> force_input(double t, const VectorXT<T>& x, int x_start, int stat
           ev.markers,
           {x.data() + x_start, static_cast<std::size_t>(state_count)},
           ev.memory.segments[index],
-          ev.memory.force_angles[index]};
+          ev.memory.force_angles[index],
+          ev.variables};
 }
 
 /// Evaluates all force elements at the markers' states, sums gravity and their wrenches into the bodies' F_applied and the

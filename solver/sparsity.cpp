@@ -86,6 +86,20 @@ Bodies bodies_of(const System& system, const std::vector<MarkerIndex>& markers) 
   return bodies;
 }
 
+/// Markers that a force element looks at or acts on, those of its signals included.
+template <class Force>
+std::vector<MarkerIndex> markers_of(const System& system, const Force& element) {
+  std::vector<MarkerIndex> markers = element.markers();
+  if constexpr (requires { element.variables(); }) {
+    for (const int variable : element.variables()) {
+      if (variable == Function::kTime) continue;
+      const std::vector<MarkerIndex> more = system.signals[variable - 1].markers();
+      markers.insert(markers.end(), more.begin(), more.end());
+    }
+  }
+  return markers;
+}
+
 }  // namespace
 
 SparsityPattern ggl_pattern(const System& system, const std::vector<int>& kept) {
@@ -99,7 +113,7 @@ SparsityPattern ggl_pattern(const System& system, const std::vector<int>& kept) 
   }
   int x = system.nq + system.nv;
   for_each_force(system, [&](const auto& element, int) {
-    const Bodies bodies = bodies_of(system, element.markers());
+    const Bodies bodies = bodies_of(system, markers_of(system, element));
     pattern.couple_motion(bodies);
     std::vector<int> states(element.state_count());
     for (int& state : states) state = x++;

@@ -1,6 +1,9 @@
 #include "solver/system.h"
 
-#include <algorithm>
+#include <utility>
+
+#include "core/distinct_times.h"
+#include "solver/loads.h"
 
 namespace wishbone {
 namespace {
@@ -39,17 +42,18 @@ std::string System::row_name(int row) const {
 
 std::vector<double> System::stop_times() const {
   std::vector<double> times;
-  const auto add = [&](const Motion& motion) {
-    const std::vector<double> t = motion.stop_times();
+  const auto add = [&](const auto& element) {
+    const std::vector<double> t = element.stop_times();
     times.insert(times.end(), t.begin(), t.end());
   };
   for (const TreeBody& body : bodies)
     if (const auto* joint = std::get_if<PrescribedJoint>(&body.joint)) add(joint->motion);
   for (const Closure& closure : closures)
     if (const Motion* motion = drive(closure.joint)) add(*motion);
-  std::sort(times.begin(), times.end());
-  times.erase(std::unique(times.begin(), times.end()), times.end());
-  return times;
+  for_each_force(*this, [&](const auto& element, int) {
+    if constexpr (requires { element.stop_times(); }) add(element);
+  });
+  return distinct_times(std::move(times));
 }
 
 }  // namespace wishbone

@@ -11,9 +11,11 @@
 #include "core/spatial.h"
 #include "forces/applied_load.h"
 #include "forces/force_element.h"
+#include "forces/joint_drive.h"
 #include "forces/joint_friction.h"
 #include "forces/joint_limit.h"
 #include "forces/joint_spring.h"
+#include "forces/motion_signal.h"
 #include "forces/spring_damper.h"
 #include "forces/tire/tire.h"
 #include "joints/cut_joint.h"
@@ -76,9 +78,9 @@ struct MeasuredCoordinate {
 };
 
 /// Force elements by concrete type, so that the evaluation calls them without dispatch. A new force is one entry.
-using ForceElements =
-    std::tuple<std::vector<SpringDamper>, std::vector<Tire>, std::vector<AppliedLoad>,
-               std::vector<JointSpring>, std::vector<JointFriction>, std::vector<JointLimit>>;
+using ForceElements = std::tuple<std::vector<SpringDamper>, std::vector<Tire>, std::vector<AppliedLoad>,
+                                 std::vector<JointSpring>, std::vector<JointFriction>,
+                                 std::vector<JointLimit>, std::vector<JointDrive>>;
 
 /// The compiled scene: what must be evaluated and nothing else. Immutable; every mutable number of an evaluation is in
 /// a Workspace. Made by SystemBuilder.
@@ -89,6 +91,8 @@ struct System {
   std::vector<Marker> markers;
   std::vector<Closure> closures;
   ForceElements forces;
+  std::vector<MotionSignal>
+      signals;  ///< variables 1, 2, ... of the functions of forces; variable 0 is the time
   std::vector<MeasuredCoordinate> measured;
 
   /// Factors on the speeds' shares in the metric in which the initial pose is assembled; empty: all one.
@@ -108,7 +112,7 @@ struct System {
   std::string speed_name(int v_index) const;
   /// Name of a closure row, such as "rear_left_hinge_2 (x)".
   std::string row_name(int row) const;
-  /// Times at which a prescribed motion is only piecewise smooth [s], ascending.
+  /// Times at which a prescribed motion or a load is only piecewise smooth [s], ascending.
   std::vector<double> stop_times() const;
 };
 

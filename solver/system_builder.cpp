@@ -213,6 +213,7 @@ std::pair<System, State> SystemBuilder::build() && {
 
   system.measured = std::move(measured_);
   system.forces = std::move(forces_);
+  system.signals = std::move(signals_);
   std::apply([&](const auto&... lists) { ((system.n_forces += static_cast<int>(lists.size())), ...); },
              system.forces);
   std::apply(

@@ -68,6 +68,12 @@ class SystemBuilder {
     std::get<std::vector<Force>>(forces_).push_back(std::move(force));
   }
 
+  /// A signal that functions of forces may use; returns its index among their variables, from 1.
+  int add_signal(MotionSignal signal) {
+    signals_.push_back(std::move(signal));
+    return static_cast<int>(signals_.size());
+  }
+
   const Pose& design_pose(int body) const { return bodies_[body].X_WB; }
   /// Design pose of an attachment: of its body, or the node's position with the body's axes.
   Pose attachment_pose(Attachment on) const;
@@ -112,6 +118,7 @@ class SystemBuilder {
   std::vector<Marker> markers_;
   std::vector<Closure> closures_;
   ForceElements forces_;
+  std::vector<MotionSignal> signals_;
   std::vector<MeasuredCoordinate> measured_;
   std::vector<int> order_of_;    // entry -> index in System::bodies
   std::vector<double> weights_;  // of the speeds, in the order of System

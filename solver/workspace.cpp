@@ -15,13 +15,15 @@ Evaluation<T>::Evaluation(const System& system)
       marker_accelerations(system.markers.size()),
       wrenches(system.markers.size()),
       element_powers(system.n_forces, T(0)),
+      variables(1 + system.signals.size(), T(0)),
       x_rate(VectorXT<T>::Zero(system.nx)),
       Phi(VectorXT<T>::Zero(system.n_rows)),
       Phi_rate(VectorXT<T>::Zero(system.n_rows)),
       Phi_dd(VectorXT<T>::Zero(system.n_rows)),
       W(Matrix6XT<T>::Zero(6, system.n_columns)),
       memory{std::vector<int>(system.n_forces, 0), std::vector<double>(system.n_forces, 0.0),
-             std::vector<double>(system.n_gauges, 0.0), std::vector<double>(system.measured.size(), 0.0)} {
+             std::vector<double>(system.n_gauges, 0.0), std::vector<double>(system.measured.size(), 0.0),
+             std::vector<double>(system.signals.size(), 0.0)} {
   for (const FlexibleBody& body : system.flexible) {
     const int m = body.modal.mode_count();
     flexible.push_back({body.modal.make_state<T>(), VectorXT<T>::Zero(m), VectorXT<T>::Zero(m)});

@@ -3,10 +3,6 @@
 find_package(Eigen3 3.4 REQUIRED)
 find_package(fmt 9 REQUIRED)
 find_package(yaml-cpp 0.7 REQUIRED)
-find_package(muparser REQUIRED)
-if(NOT TARGET muparser::muparser)  # Debian 12 exports the target without a namespace
-  add_library(muparser::muparser ALIAS muparser)
-endif()
 find_package(SUNDIALS 6.4 REQUIRED COMPONENTS cvode ida arkode)
 # The sparse direct solver by its own name: the target that SUNDIALS exports for it refers to one that nobody defines.
 find_path(KLU_INCLUDE_DIR klu.h PATH_SUFFIXES suitesparse REQUIRED)

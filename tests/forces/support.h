@@ -50,6 +50,17 @@ class Random {
   std::mt19937 engine_;
 };
 
+/// Two markers anywhere in any motion, whose z axes agree, turned by u.
+inline std::vector<MarkerState> hinge(double u, unsigned seed) {
+  Random random(seed);
+  std::vector<MarkerState> markers(2);
+  for (MarkerState& m : markers)
+    m = {Matrix3::Identity(), random.vector(1), random.vector(2), random.vector(3)};
+  markers[0].R_WM = rotation(random.vector(1), random.uniform(-3, 3));
+  markers[1].R_WM = markers[0].R_WM * rotation(Vector3::UnitZ(), u);
+  return markers;
+}
+
 /// A 205/60 R14 passenger-car tire, the data set of the published reference table.
 inline UaTireParameters sample_tire() {
   UaTireParameters t;

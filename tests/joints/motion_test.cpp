@@ -105,6 +105,86 @@ TEST(Motion, RejectsWhatItCannotFollow) {
   }
 }
 
+Function expression(const std::string& text) {
+  return Function(Expression(text, {"t"}));
+}
+
+Table sampled_sine(Table::Interpolation interpolation) {
+  std::vector<double> t, y;
+  for (int i = 0; i <= 200; ++i) {
+    t.push_back(0.01 * i);
+    y.push_back(0.2 * std::sin(3 * t.back()));
+  }
+  return {"table", t, y, interpolation};
+}
+
+TEST(Motion, FollowsAnExpressionWithExactDerivatives) {
+  const Motion motion("drive", expression("0.5*sin(4*t) + t^2"));
+  for (const double t : {0.0, 0.3, 2.0}) {
+    EXPECT_NEAR(motion.at(t).position, 0.5 * std::sin(4 * t) + t * t, 1e-15);
+    EXPECT_NEAR(motion.at(t).rate, 2 * std::cos(4 * t) + 2 * t, 1e-14);
+    EXPECT_NEAR(motion.at(t).acceleration, -8 * std::sin(4 * t) + 2, 1e-14);
+  }
+}
+
+TEST(Motion, OfAnExpressionWithStepsIsTheMotionOfSteps) {
+  const auto ackermann = geometry(Ackermann::Side::kRight);
+  const Motion steps("steering", 0.1, {{0.2, 0.5, 0.3}, {0.4, 0.2, -0.1}}, ackermann);
+  const Motion same("steering", expression("0.1 + step(t, 0.2, 0, 0.7, 0.3) - step(t, 0.4, 0, 0.6, 0.1)"),
+                    ackermann);
+  for (double t = 0; t < 1; t += 0.03) {
+    EXPECT_NEAR(same.at(t).position, steps.at(t).position, 1e-15);
+    EXPECT_NEAR(same.at(t).rate, steps.at(t).rate, 1e-13);
+    EXPECT_NEAR(same.at(t).acceleration, steps.at(t).acceleration, 1e-11);
+  }
+  EXPECT_THAT(same.stop_times(), ::testing::Pointwise(::testing::DoubleNear(1e-15), steps.stop_times()));
+}
+
+TEST(Motion, FollowsASplineThroughMeasuredPoints) {
+  const Motion motion("steering", Function(sampled_sine(Table::Interpolation::spline)));
+  for (double t = 0; t <= 2; t += 0.0173) {
+    EXPECT_NEAR(motion.at(t).position, 0.2 * std::sin(3 * t), 1e-8);
+    EXPECT_NEAR(motion.at(t).rate, 0.6 * std::cos(3 * t), 2e-6);
+    EXPECT_NEAR(motion.at(t).acceleration, -1.8 * std::sin(3 * t), 1e-3);
+  }
+  EXPECT_THAT(motion.stop_times(), ::testing::IsEmpty());
+  EXPECT_NO_THROW(motion.at(std::nextafter(2, 3)));
+}
+
+TEST(Motion, RejectsATableThatHasNoAcceleration) {
+  try {
+    Motion("steering", Function(sampled_sine(Table::Interpolation::linear)));
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "steering: error: a linear table has no acceleration at its points (got 0)\n"
+                 "  interpolate it by a spline, or write a motion of steps");
+  }
+}
+
+TEST(Motion, RejectsFunctionsOfMoreThanTheTime) {
+  EXPECT_THROW(Motion("steering", Function(Expression("t + gap", {"t", "gap"}))), InputError);
+}
+
+TEST(Motion, FailsInWordsWhereItIsUndefined) {
+  const auto message = [](const Motion& motion, double t) {
+    try {
+      motion.at(t);
+    } catch (const NumericsError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(message(Motion("drive", expression("1/(t - 1)")), 1),
+            "drive at t = 1 s: error: the motion has no value, rate or acceleration (got inf)\n"
+            "  look for a root of zero, a division by zero or a jump in its expression");
+  EXPECT_NE(message(Motion("drive", expression("sqrt(t)")), 0), "");
+  EXPECT_EQ(message(Motion("drive", Function(sampled_sine(Table::Interpolation::spline))), 3),
+            "drive at t = 3 s: error: the table of the motion does not reach this time (got 2)\n"
+            "  give points for the whole run: at an end the motion need not rest");
+  EXPECT_NE(message(Motion("drive", expression("t"), geometry(Ackermann::Side::kLeft)), 1.4), "");
+}
+
 TEST(Jet2, KnowsTheRulesOfCalculus) {
   const Jet2 x = Jet2::variable(0.7);
   const Jet2 cubic = x * x * x - 2.0 * x;

@@ -421,9 +421,9 @@ constexpr Broken kCatalogue[] = {
            "scene.yaml:3:19: parameters.form: error: not a choice of the parameter 'form' (got 'model')\n"
            "  did you mean 'modal'?"},
     Broken{"ExpressionBroken", "= 10 * width", "= 10 * (width",
-           "scene.yaml:34:11: tire_models.ua.mass: error: the expression cannot be evaluated: Missing "
-           "parenthesis (got '= 10 * (width')\n"
-           "  write a formula of parameters, such as = speed / radius"},
+           "scene.yaml:34:11: tire_models.ua.mass: error: the expression cannot be read at character 6, "
+           "'(width': this '(' is not closed (got '10 * (width')\n"
+           "  add the ')'"},
     Broken{"ExpressionInfinite", "= 10 * width", "= 1 / (width - width)",
            "scene.yaml:34:11: tire_models.ua.mass: error: the value of the expression is not finite (got '= "
            "1 / (width - width)')\n"
