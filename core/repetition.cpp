@@ -43,7 +43,8 @@ std::string whole_number(const std::string& expression, const Source& where, Par
   const std::size_t sign = value.starts_with('-') ? 1 : 0;
   if (value.size() > sign && value.find_first_not_of("0123456789", sign) == std::string::npos) return value;
   throw InputError({where.text(), fmt::format("'{{{}}}' is no whole number", expression),
-                    fmt::format("'{}'", value), "write a counter within the brackets, such as {i} or {i + 1}"});
+                    fmt::format("'{}'", value),
+                    "write a counter within the brackets, such as {i} or {i + 1}"});
 }
 
 }  // namespace

@@ -57,9 +57,8 @@ void Resolver::count_repeated(const Source& where, const std::string& path) {
   if (++repeated_ <= YamlLimits::kNodes) return;
   Source place = where;
   place.path = path;
-  throw InputError({place.text(),
-                    fmt::format("the repetitions make more than {} values", YamlLimits::kNodes), "",
-                    "lower the last number of a counter"});
+  throw InputError({place.text(), fmt::format("the repetitions make more than {} values", YamlLimits::kNodes),
+                    "", "lower the last number of a counter"});
 }
 
 template <class Add>
@@ -67,8 +66,9 @@ void Resolver::each_copy(const YamlNodePtr& node, const std::string& path, Add a
   const Entry* repeat = node->kind == Kind::kMapping ? node->find("repeat") : nullptr;
   if (!repeat) return add(node);
   const YamlNodePtr body = without(*node, *repeat);
-  Repetition repetition(*repeat, path + ".repeat", parameters_,
-                        [this](const YamlNodePtr& bound, const std::string& at) { return resolve(bound, at); });
+  Repetition repetition(
+      *repeat, path + ".repeat", parameters_,
+      [this](const YamlNodePtr& bound, const std::string& at) { return resolve(bound, at); });
   repetition.run([&] { count_repeated(repeat->where, path); }, [&] { add(body); });
 }
 

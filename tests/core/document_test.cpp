@@ -261,7 +261,8 @@ TEST_F(Document, BadRepetitionsAreTold) {
 }
 
 TEST_F(Document, RepetitionsCannotRunAway) {
-  constexpr auto kRefusal = "the repetitions make more than 100000 values\n  lower the last number of a counter";
+  constexpr auto kRefusal =
+      "the repetitions make more than 100000 values\n  lower the last number of a counter";
   EXPECT_THAT(refusal("s:\n  a_{i}: {repeat: {i: [1, 1000000]}, x: 1}\n"), testing::HasSubstr(kRefusal));
   EXPECT_THAT(refusal("s:\n  a_{i}: {repeat: {i: [1, 1000000], j: [1, 0]}, x: 1}\n"),
               testing::HasSubstr(kRefusal));
