@@ -174,7 +174,7 @@ constexpr Broken kCatalogue[] = {
            "are 0.1, 0.2, 0.4 kg m2\n"
            "  the largest must not exceed the sum of the two others"},
     Broken{"InertiaNotDefinite", "inertia: [0.1, 0.2, 0.2]", "inertia: [0.1, 0.2, 0.2, 0.3, 0, 0]",
-           "scene.yaml:8:5: bodies.arm.inertia: error: the inertia must be positive definite: its principal "
+           "scene.yaml:8:5: bodies.arm.inertia: error: the inertia must not be negative: its principal "
            "values are -0.154138, 0.2, 0.454138 kg m2\n"
            "  check the signs of the products of inertia"},
     Broken{"InertiaOfFour", "inertia: [0.1, 0.2, 0.2]", "inertia: [0.1, 0.2, 0.2, 0]",
