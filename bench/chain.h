@@ -11,7 +11,8 @@ namespace wishbone::bench {
 /// Every engine gets these numbers.
 struct ChainRod {
   static constexpr double kLength = 1, kMass = 1;
-  static constexpr double kAcross = 1.0 / 12, kAlong = 1e-3;  ///< principal moments of inertia about the middle [kg m2]
+  static constexpr double kAcross = 1.0 / 12,
+                          kAlong = 1e-3;  ///< principal moments of inertia about the middle [kg m2]
   static constexpr double kGravity = 9.81;
   static bool turns_about_y(int i) { return i % 2 == 0; }
   static double angle(int i) { return 0.3 * std::sin(i + 1.0); }

@@ -85,7 +85,8 @@ void print_row(int rods) {
   if constexpr (WISHBONE_BENCH_MUJOCO) engines[2].chain = make_mujoco_chain(rods);
   double difference = 0;
   for (std::size_t k = 1; k < engines.size(); ++k)
-    if (engines[k].chain) difference = std::max(difference, disagreement(*engines[0].chain, *engines[k].chain));
+    if (engines[k].chain)
+      difference = std::max(difference, disagreement(*engines[0].chain, *engines[k].chain));
   measure(engines, rods);
   fmt::print("| {} | {:.2f} | {:.3f} |", rods, engines[0].microseconds, engines[0].microseconds / rods);
   for (std::size_t k = 1; k < engines.size(); ++k)

@@ -15,7 +15,6 @@
 
 #include "bench/andrews_reference.h"
 #include "bench/least_time.h"
-#include "bench/simbody_andrews.h"
 #include "bench/work_precision.h"
 #include "models/compile.h"
 #include "models/scene_loader.h"
@@ -58,7 +57,8 @@ std::vector<Problem> problems() {
        "double_pendulum",
        {},
        5,
-       {{"/bodies/lower/position", 0, 0, -1.550778469470442800}, {"/bodies/lower/position", 1, 0, -1.075912734812652457}}},
+       {{"/bodies/lower/position", 0, 0, -1.550778469470442800},
+        {"/bodies/lower/position", 1, 0, -1.075912734812652457}}},
       {"Torque-free top, 100 s",
        "torque_free_top",
        {},
@@ -85,7 +85,8 @@ std::vector<Problem> problems() {
        {},
        10,
        {{"/joints/guide/coordinates", 0, 0.5, 6.19622917061365659e-01}}}};
-  Problem andrews{"Andrews' squeezing mechanism, 0.03 s", "andrews_squeezer", {}, bench::kAndrewsDuration, {}};
+  Problem andrews{
+      "Andrews' squeezing mechanism, 0.03 s", "andrews_squeezer", {}, bench::kAndrewsDuration, {}};
   for (const bench::AndrewsAngle& angle : bench::kAndrewsAngles)
     andrews.quantities.push_back(
         {std::string("/joints/") + angle.joint + "/coordinates", 0, angle.start, angle.end});
@@ -101,7 +102,8 @@ CompiledScene load(const Problem& problem) {
 /// Forms and integrators that are worth a table: explicit ones do not suit the governor, whose fastest rate is 3e4 1/s.
 std::vector<Scheme> schemes(const Problem& problem, const System& system) {
   if (problem.scene == "flyball_governor") return {{Form::ode, Method::bdf}};
-  if (system.n_rows == 0) return {{Form::ode, Method::erk}, {Form::ode, Method::adams}, {Form::ode, Method::bdf}};
+  if (system.n_rows == 0)
+    return {{Form::ode, Method::erk}, {Form::ode, Method::adams}, {Form::ode, Method::bdf}};
   std::vector<Scheme> schemes;
   for (const Form form : {Form::index1, Form::partition})
     for (const Method method : {Method::erk, Method::adams, Method::bdf}) schemes.push_back({form, method});
@@ -141,11 +143,13 @@ Run run(const Problem& problem, const CompiledScene& compiled, const Scheme& sch
   result.precision.tolerance = tolerance;
   result.precision.cpu_seconds = bench::least_cpu_seconds([&] {
     Workspace ws(compiled.system);
-    summary = run_transient(compiled.system, compiled.initial, options, ws, [&](const State& s, const Work& w) {
-      last = s;
-      work = w;
-    });
+    summary =
+        run_transient(compiled.system, compiled.initial, options, ws, [&](const State& s, const Work& w) {
+          last = s;
+          work = w;
+        });
     counters = ws.work;
+    return summary.status == TransientSummary::Status::complete;
   });
   result.work = counters;
   for (const auto& [name, value] : summary.statistics)
@@ -169,7 +173,9 @@ std::vector<double> tolerances(const Problem& problem) {
 void print_problem(const Problem& problem) {
   const CompiledScene compiled = load(problem);
   fmt::print("\n### {}\n\n", problem.title);
-  fmt::print("| form | integrator | rtol | error | steps | evaluations of forces | CPU ms |\n|---|---|---|---|---|---|---|\n");
+  fmt::print(
+      "| form | integrator | rtol | error | steps | evaluations of forces | CPU ms "
+      "|\n|---|---|---|---|---|---|---|\n");
   std::vector<std::pair<std::string, std::vector<Precision>>> lines;
   for (const Scheme& scheme : schemes(problem, compiled.system)) {
     const std::string form = to_string(scheme.form), method = to_string(scheme.method);
@@ -178,14 +184,12 @@ void print_problem(const Problem& problem) {
       const Run r = run(problem, compiled, scheme, tolerance);
       lines.back().second.push_back(r.precision);
       fmt::print("| {} | {} | {:.1e} | {} | {:.0f} | {} | {:.3g} |\n", form, method, tolerance,
-                 std::isfinite(r.precision.error) ? fmt::format("{:.1e}", r.precision.error) : "failed", r.steps,
-                 r.work.forces, 1e3 * r.precision.cpu_seconds);
+                 std::isfinite(r.precision.error) ? fmt::format("{:.1e}", r.precision.error) : "failed",
+                 r.steps, r.work.forces, 1e3 * r.precision.cpu_seconds);
       std::fflush(stdout);
     }
   }
   if (problem.scene != "andrews_squeezer") return;
-  if constexpr (WISHBONE_BENCH_SIMBODY)
-    for (const auto& line : bench::simbody_andrews()) lines.push_back(line);
   fmt::print("\n");
   bench::print_cost_heading();
   for (const auto& [name, runs] : lines) bench::print_cost_row(name, runs);
@@ -196,8 +200,8 @@ void print_problem(const Problem& problem) {
 /// @param argv scenes to run; all without
 int main(int argc, char** argv) {
   for (const Problem& problem : problems()) {
-    const bool wanted =
-        argc < 2 || std::any_of(argv + 1, argv + argc, [&](std::string_view name) { return name == problem.scene; });
+    const bool wanted = argc < 2 || std::any_of(argv + 1, argv + argc,
+                                                [&](std::string_view name) { return name == problem.scene; });
     if (wanted) print_problem(problem);
   }
   return 0;

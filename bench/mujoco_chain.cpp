@@ -1,7 +1,7 @@
 #include <fmt/core.h>
 #include <mujoco/mujoco.h>
 
-#include <cstdlib>
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -19,29 +19,39 @@ struct DataDeleter {
 };
 using Model = std::unique_ptr<mjModel, ModelDeleter>;
 
-/// Bodies within one another, without anything that collides.
-std::string chain_xml(int rods) {
+/// Elements that its XML reader goes down to in one file, some less than the hundred that it allows.
+constexpr int kDepth = 80;
+
+std::filesystem::path part(int number) {
+  return std::filesystem::temp_directory_path() / fmt::format("wishbone_chain_{}.xml", number);
+}
+
+/// Bodies within one another, from rod `first` on; what lies deeper is included from a file of its own.
+std::string bodies_xml(int first, int rods) {
+  const int end = std::min(rods, first + kDepth);
   std::string open, close;
-  for (int i = 0; i < rods; ++i) {
+  for (int i = first; i < end; ++i) {
     open += fmt::format(
         "<body pos='0 0 {}'><inertial pos='0 0 {}' mass='{}' diaginertia='{} {} {}'/><joint axis='{}'/>\n",
         i == 0 ? 0.0 : -ChainRod::kLength, -ChainRod::kLength / 2, ChainRod::kMass, ChainRod::kAcross,
         ChainRod::kAcross, ChainRod::kAlong, ChainRod::turns_about_y(i) ? "0 1 0" : "1 0 0");
     close += "</body>";
   }
-  return fmt::format(
-      "<mujoco><compiler angle='radian'/><option gravity='0 0 {}'><flag contact='disable' constraint='disable'/>"
-      "</option><worldbody>{}{}</worldbody></mujoco>",
-      -ChainRod::kGravity, open, close);
+  if (end < rods) open += fmt::format("<include file='{}'/>", part(end).filename().string());
+  return open + close;
 }
 
-/// Nothing when MuJoCo refuses: its reader of version 2.2.2 does not go down to a hundred bodies within one another.
+/// Nothing when MuJoCo refuses.
 Model load(int rods) {
-  const auto path = std::filesystem::temp_directory_path() / "wishbone_chain.xml";
-  std::ofstream(path) << chain_xml(rods);
+  for (int first = kDepth; first < rods; first += kDepth)
+    std::ofstream(part(first)) << "<mujocoinclude>" << bodies_xml(first, rods) << "</mujocoinclude>";
+  std::ofstream(part(0)) << fmt::format(
+      "<mujoco><compiler angle='radian'/><option gravity='0 0 {}'>"
+      "<flag contact='disable' constraint='disable'/></option><worldbody>{}</worldbody></mujoco>",
+      -ChainRod::kGravity, bodies_xml(0, rods));
   char message[1000] = "";
-  Model model(mj_loadXML(path.c_str(), nullptr, message, sizeof message));
-  std::filesystem::remove(path);
+  Model model(mj_loadXML(part(0).c_str(), nullptr, message, sizeof message));
+  for (int first = 0; first < rods; first += kDepth) std::filesystem::remove(part(first));
   return model;
 }
 
@@ -64,7 +74,7 @@ class MujocoChain final : public Chain {
 }  // namespace
 
 std::unique_ptr<Chain> make_mujoco_chain(int rods) {
-  constexpr int kDeepest = 1000;  // beyond which its reader may exhaust the stack
+  constexpr int kDeepest = 1000;  // joint-space matrices grow with the square of the number of rods
   Model model = rods <= kDeepest ? load(rods) : nullptr;
   return model ? std::make_unique<MujocoChain>(std::move(model)) : nullptr;
 }

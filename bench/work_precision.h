@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -10,16 +11,19 @@ namespace wishbone::bench {
 /// One run of a work-precision table.
 struct Precision {
   double tolerance = 0;
-  double error = 0;        ///< infinite when the run failed
+  double error = 0;  ///< infinite when the run failed
   double cpu_seconds = 0;
 };
 
-/// Least CPU time [s] that reaches `error` and keeps it at all tighter tolerances, since end-point errors are not monotone in
-/// the tolerance; below zero when none does. `runs` go from loose to tight.
+/// Least CPU time [s] that reaches `error` and keeps it at all tighter tolerances at which the run succeeds, since end-point
+/// errors are not monotone in the tolerance; below zero when none does. `runs` go from loose to tight.
 inline double cost_of(double error, const std::vector<Precision>& runs) {
   double least = -1;
-  for (auto run = runs.rbegin(); run != runs.rend() && run->error <= error; ++run)
+  for (auto run = runs.rbegin(); run != runs.rend(); ++run) {
+    if (std::isinf(run->error)) continue;
+    if (run->error > error) break;
     if (least < 0 || run->cpu_seconds < least) least = run->cpu_seconds;
+  }
   return least;
 }
 
