@@ -100,7 +100,7 @@ class Andrews {
 template <class Integrator>
 std::vector<Precision> line(Andrews& andrews) {
   std::vector<Precision> runs;
-  for (int k = 4; k <= 16; ++k) runs.push_back(andrews.run<Integrator>(std::pow(10.0, -0.5 * k)));
+  for (int k = 4; k <= 18; ++k) runs.push_back(andrews.run<Integrator>(std::pow(10.0, -0.5 * k)));
   return runs;
 }
 
