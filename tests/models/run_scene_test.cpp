@@ -86,6 +86,21 @@ TEST(RunScene, EnergyBookClosesWhenEveryJointIsPrescribed) {
   EXPECT_LT((balance.array() - balance(0, 0)).abs().maxCoeff(), 1e-6);
 }
 
+TEST(RunScene, JointAboutWhichNothingHasInertiaIsNamed) {
+  for (const char* place : {"[0, 0, 0]", "[1, 2, 3]", "[0.1, 0.7, -1000.3]"})
+    for (const char* type : {"revolute, axis: [1, 2, 3]", "spherical"}) {
+      const TextFiles files;
+      const std::string text =
+          std::string("wishbone: 1\nbodies:\n  bead: {mass: 1, inertia: [0, 0, 0], position: ") + place +
+          "}\njoints:\n  pin: {type: " + type + ", bodies: [ground, bead], at: " + place + "}\n";
+      const RunResult result = run(files, text.c_str());
+      EXPECT_EQ(result.summary.status, TransientSummary::Status::failed);
+      EXPECT_THAT(result.summary.message, HasSubstr("body 'bead', joint 'pin'")) << type << place;
+      EXPECT_THAT(result.summary.message, HasSubstr("the inertia that moves with the joint"))
+          << type << place;
+    }
+}
+
 TEST(Plan, LeavesOutWhatAPendulumDoesNotNeed) {
   const Scene scene = load_scene(std::string(WISHBONE_SCENES) + "/examples/pendulum.yaml");
   const Plan plan = make_plan(compile(scene));

@@ -75,6 +75,14 @@ TEST_F(SceneText, FlatBodyIsAllowed) {
   EXPECT_NO_THROW(load("bodies:\n  disc: {mass: 1, inertia: [0.1, 0.2, 0.3], position: [0, 0, 0]}\n"));
 }
 
+TEST_F(SceneText, PointMassAndThinRodAreAllowed) {
+  const Scene scene = load(
+      "bodies:\n  point: {mass: 1, inertia: [0, 0, 0], position: [0, 0, 0]}\n"
+      "  rod: {mass: 1, inertia: [1, 1, 2, -1, 0, 0], position: [0, 0, 0]}\n");  // along [1, 1, 0]
+  EXPECT_EQ(scene.bodies[0].inertia, Matrix3::Zero());
+  EXPECT_EQ(scene.bodies[1].inertia(0, 1), -1);
+}
+
 TEST_F(SceneText, OrientationAndPlacementTurnAboutTheirAxes) {
   const Scene scene = load(
       "placement: {axis: [0, 0, 2], angle: 90 deg, origin: [1, 0, 0]}\n"
