@@ -109,18 +109,22 @@ inline Vector6 shift_wrench(const Vector6& F_B, const Vector3& p_PB) {
   return shift_wrench<double>(F_B, p_PB);
 }
 
-/// Spatial inertia about Po of a (possibly articulated) inertia given about Bo:
-/// X^T I X with X = [1 0; -p~ 1] the rigid shift from Po to Bo.
-inline Matrix6 shift_inertia(const Matrix6& I_B, const Vector3& p_PB) {
-  const Matrix3 p = skew(p_PB);
-  Matrix6 I_P;
-  const Matrix3 m = I_B.bottomRightCorner<3, 3>();
-  const Matrix3 h = I_B.topRightCorner<3, 3>() + p * m;  // upper right block about Po
-  I_P.topRightCorner<3, 3>() = h;
-  I_P.bottomLeftCorner<3, 3>() = h.transpose();
-  I_P.bottomRightCorner<3, 3>() = m;
-  I_P.topLeftCorner<3, 3>() = I_B.topLeftCorner<3, 3>() + p * I_B.bottomLeftCorner<3, 3>() - h * p;
-  return I_P;
+/// Adds a (possibly articulated) spatial inertia I_B about Bo to one about Po:
+/// I_P += X^T I_B X with X = [1 0; -p~ 1] the rigid shift from Po to Bo. With blocks [J B; B^T M] about Bo those about Po are
+/// [J + p~ B^T - B_P p~, B_P; B_P^T, M], B_P = B + p~ M.
+inline void add_shifted_inertia(const Matrix6& I_B, const Vector3& p_PB, Matrix6& I_P) {
+  Matrix3 B_P, J_P;
+  for (int j = 0; j < 3; ++j) {
+    B_P.col(j) = I_B.block<3, 1>(0, 3 + j) + p_PB.cross(I_B.block<3, 1>(3, 3 + j));
+    J_P.col(j) = I_B.block<3, 1>(0, j) + p_PB.cross(I_B.block<3, 1>(3, j));
+  }
+  J_P.col(0) += B_P.col(2) * p_PB.y() - B_P.col(1) * p_PB.z();
+  J_P.col(1) += B_P.col(0) * p_PB.z() - B_P.col(2) * p_PB.x();
+  J_P.col(2) += B_P.col(1) * p_PB.x() - B_P.col(0) * p_PB.y();
+  I_P.topLeftCorner<3, 3>() += J_P;
+  I_P.topRightCorner<3, 3>() += B_P;
+  I_P.bottomLeftCorner<3, 3>() += B_P.transpose();
+  I_P.bottomRightCorner<3, 3>() += I_B.bottomRightCorner<3, 3>();
 }
 
 /// Rotation by `angle` about the unit vector `axis`: c 1 + s axis~ + (1 - c) axis axis^T.

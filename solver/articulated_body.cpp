@@ -1,33 +1,12 @@
 #include "solver/articulated_body.h"
 
 #include <Eigen/Cholesky>
-#include <type_traits>
+#include <cmath>
 
 #include "core/error.h"
 
 namespace wishbone {
 namespace {
-
-/// Calls f with the joint's number of speeds as a compile-time constant, so that its matrices have fixed size.
-template <class F>
-void with_joint_size(int nv, F&& f) {
-  switch (nv) {
-    case 0:
-      return f(std::integral_constant<int, 0>{});
-    case 1:
-      return f(std::integral_constant<int, 1>{});
-    case 2:
-      return f(std::integral_constant<int, 2>{});
-    case 3:
-      return f(std::integral_constant<int, 3>{});
-    case 4:
-      return f(std::integral_constant<int, 4>{});
-    case 5:
-      return f(std::integral_constant<int, 5>{});
-    default:
-      return f(std::integral_constant<int, 6>{});
-  }
-}
 
 [[noreturn]] void fail_singular(const TreeBody& body, double pivot) {
   throw NumericsError({"body '" + body.name + "', joint '" + body.joint_name + "'",
@@ -54,14 +33,14 @@ void set_own_inertia(const FlexibleBody& flexible, const BodyMotion& s, const Mo
 }
 
 /// P = M_rr - Y^T Y with Y = L_z^-1 M_zr.
-void condense_modes(const FlexibleBody& flexible, ArticulatedBody& a, CondensedModes& f) {
+void condense_modes(const FlexibleBody& flexible, Matrix6& P, CondensedModes& f) {
   if (flexible.carries_joints) {
     Eigen::LLT<Eigen::Ref<MatrixX>> factor(f.M_zz);  // in place
     f.M_zz.triangularView<Eigen::Lower>().solveInPlace(f.Y);
-    a.P.noalias() -= f.Y.transpose() * f.Y;
+    P.noalias() -= f.Y.transpose() * f.Y;
   } else {
     const Matrix3 SS = f.Y.leftCols<3>().transpose() * f.Y.leftCols<3>();
-    a.P.topLeftCorner<3, 3>() -= SS;
+    P.topLeftCorner<3, 3>() -= SS;
   }
 }
 
@@ -80,70 +59,35 @@ void add_to_flexible_parent(const Matrix6& P_plus, const BodyMotion& child, cons
   f.M_zz.triangularView<Eigen::Lower>() += Psi.transpose() * f.P_Psi;
 }
 
-/// `stiffening`: factors on the hinge inertia of the joint's speeds, D <- W D W with W = diag(sqrt); null for none.
-template <int nv>
-void factor_joint(const TreeBody& body, const BodyMotion& s, const double* stiffening, ArticulatedBody& a,
-                  Matrix6& P_plus) {
-  P_plus = a.P;
-  if constexpr (nv > 0) {
-    const Eigen::Matrix<double, 6, nv> H = s.H.leftCols<nv>();
-    const Eigen::Matrix<double, 6, nv> PH = a.P * H;
-    Eigen::Matrix<double, nv, nv> D = H.transpose() * PH;
-    if (stiffening) {
-      const Eigen::Matrix<double, nv, 1> w =
-          Eigen::Map<const Eigen::Matrix<double, nv, 1>>(stiffening).cwiseSqrt();
-      D = w.asDiagonal() * D * w.asDiagonal();
-    }
-    if constexpr (nv == 1) {
-      if (!(D(0, 0) > 0)) fail_singular(body, D(0, 0));
-      a.L(0, 0) = std::sqrt(D(0, 0));
-      a.G.col(0) = PH / a.L(0, 0);
-    } else {
-      const Eigen::LLT<Eigen::Matrix<double, nv, nv>> llt(D);
-      if (llt.info() != Eigen::Success) fail_singular(body, D.diagonal().minCoeff());
-      const Eigen::Matrix<double, nv, nv> L = llt.matrixL();
-      a.L.template topLeftCorner<nv, nv>() = L;
-      // G L^T = P H
-      a.G.template leftCols<nv>() =
-          L.template triangularView<Eigen::Lower>().solve(PH.transpose()).transpose();
-    }
-    P_plus.noalias() -= a.G.template leftCols<nv>() * a.G.template leftCols<nv>().transpose();
+/// P+ = P - G G^T, one speed h of the joint after the other: g = P h / sqrt(h^T P h), P <- P - g g^T. A joint with several
+/// speeds is a chain of joints with one speed each and nothing between them.
+void eliminate_joint(const TreeBody& body, Workspace& ws, Matrix6& P) {
+  for (int j = body.v_start; j < body.v_start + body.nv; ++j) {
+    const Vector6& h = ws.H[j];
+    const Vector6 Ph = P * h;
+    double pivot = h.dot(Ph);
+    if (!(pivot > 0)) fail_singular(body, pivot);
+    if (ws.stiffening.size() > 0) pivot *= ws.stiffening[j];
+    ws.root[j] = std::sqrt(pivot);
+    Vector6& g = ws.G[j];
+    g = Ph / ws.root[j];
+    for (int k = 0; k < 6; ++k) P.col(k) -= g[k] * g;
   }
 }
 
-/// Z+ = Z + P c + G e with e = L^-1 (tau - H^T (Z + P c)). On entry e holds the hinge forces tau.
-template <int nv>
-void pass_bias(const BodyMotion& s, const ArticulatedBody& a, bool with_velocity_products, double* e,
-               Vector6& Z_plus) {
-  Z_plus = a.Z;
-  if (with_velocity_products) Z_plus.noalias() += a.P * s.c;
-  if constexpr (nv > 0) {
-    Eigen::Map<Eigen::Matrix<double, nv, 1>> e_joint(e);
-    e_joint.noalias() -= s.H.template leftCols<nv>().transpose() * Z_plus;
-    if constexpr (nv == 1)
-      e[0] /= a.L(0, 0);
-    else
-      a.L.template topLeftCorner<nv, nv>().template triangularView<Eigen::Lower>().solveInPlace(e_joint);
-    Z_plus.noalias() += a.G.template leftCols<nv>() * e_joint;
+/// e = L^-1 (tau - H^T Z) for the speeds of a joint, which hold tau on entry; Z <- Z + G e, as the parent feels it.
+void pass_bias(const TreeBody& body, const Workspace& ws, VectorX& e, Vector6& Z) {
+  for (int j = body.v_start; j < body.v_start + body.nv; ++j) {
+    e[j] = (e[j] - ws.H[j].dot(Z)) / ws.root[j];
+    Z += ws.G[j] * e[j];
   }
 }
 
-/// v' = L^-T (e - G^T A_in),  A = A_in + H v' + c, with A_in the acceleration that the parent hands on.
-template <int nv>
-void accelerate(BodyMotion& s, const ArticulatedBody& a, bool with_velocity_products, const Vector6& A_in,
-                const double* e, double* v_rate) {
-  s.A = A_in;
-  if (with_velocity_products) s.A += s.c;
-  if constexpr (nv > 0) {
-    using Speeds = Eigen::Matrix<double, nv, 1>;
-    Speeds vd = Eigen::Map<const Speeds>(e) - a.G.template leftCols<nv>().transpose() * A_in;
-    if constexpr (nv == 1)
-      vd[0] /= a.L(0, 0);
-    else
-      a.L.template topLeftCorner<nv, nv>().template triangularView<Eigen::Lower>().transpose().solveInPlace(
-          vd);
-    Eigen::Map<Speeds>{v_rate} = vd;
-    s.A.noalias() += s.H.template leftCols<nv>() * vd;
+/// v' = L^-T (e - G^T A) for the speeds of a joint, and A <- A + H v': from what the parent hands on to the body.
+void accelerate_joint(const TreeBody& body, const Workspace& ws, Vector6& A, VectorX& v_rate) {
+  for (int j = body.v_start + body.nv - 1; j >= body.v_start; --j) {
+    v_rate[j] = (ws.e[j] - ws.G[j].dot(A)) / ws.root[j];
+    A += ws.H[j] * v_rate[j];
   }
 }
 
@@ -192,22 +136,17 @@ void factor_inertia(const System& system, Workspace& ws) {
     else
       set_own_inertia(body, ws.bodies[i], ws.articulated[i]);
   }
-  const double* stiffening = ws.stiffening.size() > 0 ? ws.stiffening.data() : nullptr;
   for (int i = n - 1; i >= 0; --i) {
     const TreeBody& body = system.bodies[i];
     const BodyMotion& s = ws.bodies[i];
-    ArticulatedBody& a = ws.articulated[i];
-    if (body.flexible >= 0) condense_modes(system.flexible[body.flexible], a, ws.condensed[body.flexible]);
-    Matrix6 P_plus;
-    with_joint_size(body.nv, [&](auto size) {
-      factor_joint<size()>(body, s, stiffening ? stiffening + body.v_start : nullptr, a, P_plus);
-    });
+    Matrix6& P = ws.articulated[i].P;
+    if (body.flexible >= 0) condense_modes(system.flexible[body.flexible], P, ws.condensed[body.flexible]);
+    eliminate_joint(body, ws, P);
     if (body.parent < 0) continue;
-    ws.articulated[body.parent].P += shift_inertia(P_plus, s.p_PB);
+    add_shifted_inertia(P, s.p_PB, ws.articulated[body.parent].P);
     if (body.parent_node >= 0) {
       const int k = system.bodies[body.parent].flexible;
-      add_to_flexible_parent(P_plus, s, body, system.flexible[k], ws.bodies[body.parent].X_WB.R,
-                             ws.condensed[k]);
+      add_to_flexible_parent(P, s, body, system.flexible[k], ws.bodies[body.parent].X_WB.R, ws.condensed[k]);
     }
   }
 }
@@ -227,11 +166,11 @@ void calc_bias(const System& system, Terms terms, Workspace& ws) {
         f.M_zz.triangularView<Eigen::Lower>().solveInPlace(e_z);
       a.Z.noalias() += f.Y.transpose() * e_z;
     }
-    Vector6 Z_plus;
-    with_joint_size(body.nv, [&](auto size) {
-      pass_bias<size()>(s, a, terms == Terms::all, ws.e.data() + body.v_start, Z_plus);
-    });
+    pass_bias(body, ws, ws.e, a.Z);
     if (body.parent < 0) continue;
+    // Z+ = Z + G e + P+ c
+    Vector6 Z_plus = a.Z;
+    if (terms == Terms::all) Z_plus += a.P * s.c;
     ws.articulated[body.parent].Z += shift_wrench(Z_plus, s.p_PB);
     if (body.parent_node >= 0) {
       const FlexibleBody& parent = system.flexible[system.bodies[body.parent].flexible];
@@ -245,20 +184,19 @@ void calc_accelerations(const System& system, Terms terms, Workspace& ws, Vector
   for (std::size_t i = 0; i < system.bodies.size(); ++i) {
     const TreeBody& body = system.bodies[i];
     BodyMotion& s = ws.bodies[i];
-    Vector6 A_in = Vector6::Zero();
+    Vector6 A = Vector6::Zero();
+    if (terms == Terms::all) A = s.c;
     if (body.parent >= 0) {
       const BodyMotion& parent = ws.bodies[body.parent];
-      A_in = shift_velocity(parent.A, s.p_PB);
+      A += shift_velocity(parent.A, s.p_PB);
       if (body.parent_node >= 0) {
         const int k = system.bodies[body.parent].flexible;
         const Vector3 a_P = system.flexible[k].modal.interface_shape(body.parent_node) * ws.flexible[k].z_dd;
-        A_in.tail<3>() += parent.X_WB.R * a_P;
+        A.tail<3>() += parent.X_WB.R * a_P;
       }
     }
-    with_joint_size(body.nv, [&](auto size) {
-      accelerate<size()>(s, ws.articulated[i], terms == Terms::all, A_in, ws.e.data() + body.v_start,
-                         v_rate.data() + body.v_start);
-    });
+    accelerate_joint(body, ws, A, v_rate);
+    s.A = A;
     if (body.flexible >= 0) {
       // z'' = L_z^-T (e_z - Y A)
       const FlexibleBody& flexible = system.flexible[body.flexible];
@@ -272,22 +210,17 @@ void calc_accelerations(const System& system, Terms terms, Workspace& ws, Vector
   }
 }
 
-void pass_through_joint(const TreeBody& body, const BodyMotion& s, const ArticulatedBody& a,
-                        Eigen::Ref<Matrix6X> z, Eigen::Ref<MatrixX> U) {
-  with_joint_size(body.nv, [&](auto size) {
-    constexpr int nv = size();
-    if constexpr (nv > 0) {
-      for (Eigen::Index j = 0; j < z.cols(); ++j) {
-        Eigen::Matrix<double, nv, 1> u = s.H.template leftCols<nv>().transpose() * z.col(j);
-        if constexpr (nv == 1)
-          u[0] /= a.L(0, 0);
-        else
-          a.L.template topLeftCorner<nv, nv>().template triangularView<Eigen::Lower>().solveInPlace(u);
-        U.col(j).template segment<nv>(0) = u;
-        z.col(j).noalias() -= a.G.template leftCols<nv>() * u;
-      }
+void pass_through_joint(const TreeBody& body, const Workspace& ws, Eigen::Ref<Matrix6X> z,
+                        Eigen::Ref<MatrixX> U) {
+  for (Eigen::Index column = 0; column < z.cols(); ++column) {
+    Vector6 Z = z.col(column);
+    for (int i = 0; i < body.nv; ++i) {
+      const int j = body.v_start + i;
+      U(i, column) = ws.H[j].dot(Z) / ws.root[j];
+      Z -= ws.G[j] * U(i, column);
     }
-  });
+    z.col(column) = Z;
+  }
 }
 
 }  // namespace wishbone

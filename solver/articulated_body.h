@@ -9,13 +9,16 @@ namespace wishbone {
 ///
 ///   D = H^T P H = L L^T,   G = P H L^-T,   P+ = P - G G^T   (what the parent feels through the joint)
 ///
+/// Columns of G and pivots of L come one speed after the other, so L itself is never formed: L_jj = Workspace::root[j] and
+/// L_ij = h_i^T g_j. Velocity products c act through P+: Z+ = Z + G e + P+ c.
+///
 /// A flexible body condenses its modal coordinates the same way before its joint is treated:
 ///
 ///   M_zz = L_z L_z^T,   Y = L_z^-1 M_zr,   P = M_rr - Y^T Y.
 ///
 /// M_zz is the identity unless joints hang on the body's nodes, so a free flexible body costs O(modes).
 
-/// P, L, G of all bodies, from the tips inward. Needs update_positions.
+/// P+, G and root of all bodies, from the tips inward. Needs update_positions.
 void factor_inertia(const System& system, Workspace& ws);
 
 /// What enters an acceleration.
@@ -25,7 +28,7 @@ enum class Terms {
 };
 
 /// The inward half of v' = M^-1 tau. With the factor M^-1 = F^T F [Rodriguez, Jain & Kreutz-Delgado 1991] it leaves e = F tau
-/// in Workspace::e: what is left of the loads minus biases in every hinge, L^-1 (tau - H^T (Z + P c)), and in the modes.
+/// in Workspace::e: what is left of the loads minus biases in every hinge, L^-1 (tau - H^T Z), and in the modes.
 /// Needs factor_inertia (and update_state for Terms::all).
 void calc_bias(const System& system, Terms terms, Workspace& ws);
 
@@ -34,8 +37,8 @@ void calc_bias(const System& system, Terms terms, Workspace& ws);
 void calc_accelerations(const System& system, Terms terms, Workspace& ws, VectorX& v_rate);
 
 /// Passes the wrenches z (6 x n, on body i, about its origin) through the joint of body i toward its parent, and writes
-/// the rows of the factor U = L^-1 H^T z that belong to the joint.
-void pass_through_joint(const TreeBody& body, const BodyMotion& s, const ArticulatedBody& a,
-                        Eigen::Ref<Matrix6X> z, Eigen::Ref<MatrixX> U);
+/// those rows of the factor U = L^-1 H^T z that belong to the joint.
+void pass_through_joint(const TreeBody& body, const Workspace& ws, Eigen::Ref<Matrix6X> z,
+                        Eigen::Ref<MatrixX> U);
 
 }  // namespace wishbone

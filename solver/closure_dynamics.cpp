@@ -55,8 +55,7 @@ void sweep_body(const System& system, int i, int first, int columns, Workspace& 
     if (system.flexible[body.flexible].carries_joints) f.M_zz.triangularView<Eigen::Lower>().solveInPlace(u);
     z.noalias() -= f.Y.transpose() * u;
   }
-  pass_through_joint(body, s, ws.articulated[i], z,
-                     ws.closure.U.block(body.v_start, first, body.nv, columns));
+  pass_through_joint(body, ws, z, ws.closure.U.block(body.v_start, first, body.nv, columns));
   if (body.parent < 0) return;
   auto z_parent = wrench_block(ws, body.parent, columns);
   z_parent += z;

@@ -17,7 +17,6 @@ struct BodyMotionT {
   Vector6T<T> c =
       Vector6T<T>::Zero();  ///< A_WB - shift(A_WP) - H v': velocity products and prescribed motion
   Vector6T<T> A = Vector6T<T>::Zero();          ///< A_WB
-  Matrix6T<T> H = Matrix6T<T>::Zero();          ///< hinge matrix, first nv columns
   Vector6T<T> F_applied = Vector6T<T>::Zero();  ///< sum of applied wrenches, gravity included, about Bo
   Vector6T<T> F_joint = Vector6T<T>::Zero();    ///< that the inboard joint exerts on the body, about Bo
 };
@@ -47,6 +46,8 @@ struct Evaluation {
   explicit Evaluation(const System& system);
 
   std::vector<BodyMotionT<T>> bodies;
+  std::vector<Vector6T<T>>
+      H;  ///< hinge matrices: the velocity of the joint's body for each unit speed of the joint
   std::vector<FlexibleMotionT<T>> flexible;
   std::vector<MarkerStateT<T>> markers;
   std::vector<MarkerAccelerationT<T>> marker_accelerations;  ///< of the closures' markers

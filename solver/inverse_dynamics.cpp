@@ -19,7 +19,7 @@ void accelerate_bodies(const System& system, const VectorXT<T>& v_rate, Evaluati
     const TreeBody& body = system.bodies[i];
     BodyMotionT<T>& s = ev.bodies[i];
     s.A = s.c;
-    for (int j = 0; j < body.nv; ++j) s.A += s.H.col(j) * v_rate[body.v_start + j];
+    for (int j = 0; j < body.nv; ++j) s.A += ev.H[body.v_start + j] * v_rate[body.v_start + j];
     if (body.parent < 0) continue;
     const BodyMotionT<T>& parent = ev.bodies[body.parent];
     s.A += shift_velocity(parent.A, s.p_PB);
@@ -62,7 +62,7 @@ void project_onto_hinges(const System& system, Evaluation<T>& ev, T* r) {
   for (int i = static_cast<int>(system.bodies.size()) - 1; i >= 0; --i) {
     const TreeBody& body = system.bodies[i];
     const BodyMotionT<T>& s = ev.bodies[i];
-    for (int j = 0; j < body.nv; ++j) r[body.v_start + j] = s.H.col(j).dot(s.F_joint);
+    for (int j = 0; j < body.nv; ++j) r[body.v_start + j] = ev.H[body.v_start + j].dot(s.F_joint);
     if (body.parent < 0) continue;
     BodyMotionT<T>& parent = ev.bodies[body.parent];
     parent.F_joint += shift_wrench(s.F_joint, s.p_PB);

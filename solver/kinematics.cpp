@@ -25,17 +25,26 @@ Vector3T<T> node_deflection_rate(const System& system, const TreeBody& body, con
   return R_WP * ev.flexible[k].modal.interface_delta_dot.col(body.parent_node);
 }
 
+/// R_WF.
+template <class T>
+Matrix3T<T> inboard_axes(const TreeBody& body, const Matrix3T<T>& R_WP) {
+  return body.turned_PF ? Matrix3T<T>(R_WP * body.X_PF.R) : R_WP;
+}
+
 template <class Joint, class T>
 void update_position(const System& system, const TreeBody& body, const Joint& joint, double t, const T* q,
-                     BodyMotionT<T>& s, const Evaluation<T>& ev) {
+                     Evaluation<T>& ev, BodyMotionT<T>& s) {
   constexpr int nv = Joint::kNv;
   const BodyMotionT<T>& parent = parent_motion(body, ev);
   AcrossJoint<nv, T> across;
   joint.calc_across(t, q, across);
 
-  const Matrix3T<T> R_WF = parent.X_WB.R * body.X_PF.R;
+  const Matrix3T<T> R_WF = inboard_axes(body, parent.X_WB.R);
   const Matrix3T<T> R_WM = R_WF * across.X_FM.R;
-  s.X_WB.R = R_WM * body.X_MB.R;
+  if (body.turned_MB)
+    s.X_WB.R = R_WM * body.X_MB.R;
+  else
+    s.X_WB.R = R_WM;
   s.p_MB = R_WM * body.X_MB.p;
   // p_PB = p_PF + p_FM + p_MB
   s.p_PB = R_WF * across.X_FM.p + s.p_MB;
@@ -50,48 +59,48 @@ void update_position(const System& system, const TreeBody& body, const Joint& jo
   if constexpr (nv > 0)
     for (int i = 0; i < nv; ++i) {
       const Vector3T<T> w = R_WF * across.H.template block<3, 1>(0, i);
-      s.H.template block<3, 1>(0, i) = w;
-      s.H.template block<3, 1>(3, i) = R_WF * across.H.template block<3, 1>(3, i) + w.cross(s.p_MB);
+      const Vector3T<T> v_M = R_WF * across.H.template block<3, 1>(3, i);
+      ev.H[body.v_start + i] << w, v_M + w.cross(s.p_MB);
     }
 }
 
 template <class Joint, class T>
 void update_velocity(const System& system, const TreeBody& body, const Joint& joint, double t, const T* q,
-                     const T* v, BodyMotionT<T>& s, const Evaluation<T>& ev) {
-  constexpr int nv = Joint::kNv;
+                     const T* v, const Evaluation<T>& ev, BodyMotionT<T>& s) {
   const BodyMotionT<T>& parent = parent_motion(body, ev);
-  const Vector3T<T> p_PM = s.p_PB - s.p_MB;
 
-  // motion across the joint at Mo: H v, and the drift of prescribed motions and turning axes; the node's velocity adds to
-  // the linear part
+  // motion of Bo as seen from the parent: H v, the drift of prescribed motions and turning axes, and the node's velocity
   Vector3T<T> w_rel = Vector3T<T>::Zero();
   Vector3T<T> v_rel = node_deflection_rate(system, body, parent.X_WB.R, ev);
-  if constexpr (nv > 0) {
-    const Vector6T<T> Hv = s.H.template leftCols<nv>() * Eigen::Map<const Eigen::Matrix<T, nv, 1>>(v);
-    w_rel = angular(Hv);
-    v_rel += linear(Hv) - w_rel.cross(s.p_MB);
+  for (int i = 0; i < Joint::kNv; ++i) {
+    const Vector6T<T>& h = ev.H[body.v_start + i];
+    w_rel += angular(h) * v[i];
+    v_rel += linear(h) * v[i];
   }
-  Vector3T<T> alpha_drift = Vector3T<T>::Zero(), a_drift = Vector3T<T>::Zero();
+  Vector3T<T> alpha_drift, a_drift;
   if constexpr (Joint::kHasDrift) {
     Vector6T<T> V_drift, A_drift;
     joint.calc_drift(t, q, v, V_drift, A_drift);
-    const Matrix3T<T> R_WF = parent.X_WB.R * body.X_PF.R;
-    w_rel += R_WF * angular(V_drift);
-    v_rel += R_WF * linear(V_drift);
+    const Matrix3T<T> R_WF = inboard_axes(body, parent.X_WB.R);
+    const Vector3T<T> w_drift = R_WF * angular(V_drift);
+    w_rel += w_drift;
+    v_rel += R_WF * linear(V_drift) + w_drift.cross(s.p_MB);
     alpha_drift = R_WF * angular(A_drift);
-    a_drift = R_WF * linear(A_drift);
+    a_drift = R_WF * linear(A_drift) + alpha_drift.cross(s.p_MB);
   }
   const Vector3T<T> w_P = angular(parent.V);
-  const Vector3T<T> w_B = w_P + w_rel;
-  const Vector3T<T> v_M = linear(parent.V) + w_P.cross(p_PM) + v_rel;
-  s.V << w_B, v_M + w_B.cross(s.p_MB);
+  const Vector3T<T> w_P_x_p = w_P.cross(s.p_PB);
+  s.V << w_P + w_rel, linear(parent.V) + w_P_x_p + v_rel;
 
   // alpha_B = alpha_P + w_P x w_rel + alpha_rel
-  // a_Mo    = a_P + alpha_P x p_PM + w_P x (w_P x p_PM) + 2 w_P x v_rel + a_rel
-  // a_Bo    = a_Mo + alpha_B x p_MB + w_B x (w_B x p_MB)
-  const Vector3T<T> c_alpha = w_P.cross(w_rel) + alpha_drift;
-  const Vector3T<T> c_M = w_P.cross(w_P.cross(p_PM) + 2.0 * v_rel) + a_drift;
-  s.c << c_alpha, c_M + c_alpha.cross(s.p_MB) + w_B.cross(w_B.cross(s.p_MB));
+  // a_Bo    = a_P + alpha_P x p_PB + w_P x (w_P x p_PB + 2 v_rel) + w_rel x (w_rel x p_MB) + a_rel
+  const Vector3T<T> turning = w_P_x_p + 2.0 * v_rel;
+  const Vector3T<T> w_rel_x_p = w_rel.cross(s.p_MB);
+  s.c << w_P.cross(w_rel), w_P.cross(turning) + w_rel.cross(w_rel_x_p);
+  if constexpr (Joint::kHasDrift) {
+    s.c.template head<3>() += alpha_drift;
+    s.c.template tail<3>() += a_drift;
+  }
 }
 
 }  // namespace
@@ -102,7 +111,7 @@ void update_positions(const System& system, double t, const VectorXT<T>& q, Eval
     const TreeBody& body = system.bodies[i];
     std::visit(
         [&](const auto& joint) {
-          update_position(system, body, joint, t, q.data() + body.q_start, ev.bodies[i], ev);
+          update_position(system, body, joint, t, q.data() + body.q_start, ev, ev.bodies[i]);
         },
         body.joint);
     if (body.flexible >= 0) {
@@ -120,7 +129,7 @@ void update_velocities(const System& system, double t, const VectorXT<T>& q, con
     BodyMotionT<T>& s = ev.bodies[i];
     std::visit(
         [&](const auto& joint) {
-          update_velocity(system, body, joint, t, q.data() + body.q_start, v.data() + body.v_start, s, ev);
+          update_velocity(system, body, joint, t, q.data() + body.q_start, v.data() + body.v_start, ev, s);
         },
         body.joint);
     if (body.flexible >= 0) {

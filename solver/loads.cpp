@@ -42,8 +42,8 @@ void clear_loads(Evaluation<T>& ev) {
 
 template <class T>
 void apply_forces(const System& system, double t, const VectorXT<T>& x, Evaluation<T>& ev) {
-  clear_loads(ev);
   for (WrenchT<T>& w : ev.wrenches) w = WrenchT<T>{};
+  for (FlexibleMotionT<T>& f : ev.flexible) f.load.setZero();
 
   update_variables(system, t, ev);
   int x_start = 0;
@@ -58,7 +58,7 @@ void apply_forces(const System& system, double t, const VectorXT<T>& x, Evaluati
   for (std::size_t i = 0; i < system.bodies.size(); ++i) {
     const TreeBody& body = system.bodies[i];
     const double mass = body.flexible < 0 ? body.mass : system.flexible[body.flexible].modal.mass();
-    ev.bodies[i].F_applied.template tail<3>() = (mass * system.gravity).template cast<T>();
+    ev.bodies[i].F_applied << Vector3T<T>::Zero(), (mass * system.gravity).template cast<T>();
   }
   if (system.n_forces == 0) return;
   for (std::size_t i = 0; i < system.markers.size(); ++i)

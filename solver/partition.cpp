@@ -105,10 +105,8 @@ void PartitionedSystem::choose(const State& state) {
   calc_closure_jacobian();
   // columns in the metric of kinetic energy: a speed counts by the inertia that moves with it
   VectorX scale = VectorX::Ones(system_.nv);
-  for (std::size_t b = 0; b < system_.bodies.size(); ++b)
-    for (int i = 0; i < system_.bodies[b].nv; ++i)
-      scale[system_.bodies[b].v_start + i] =
-          1 / ws_.articulated[b].L.row(i).head(system_.bodies[b].nv).norm();
+  for (const TreeBody& body : system_.bodies)
+    for (int j = body.v_start; j < body.v_start + body.nv; ++j) scale[j] = 1 / ws_.root[j];
   const Eigen::ColPivHouseholderQR<MatrixX> qr(D_ * scale.asDiagonal());
   const auto& order = qr.colsPermutation().indices();
   dependent_.assign(order.data(), order.data() + n_dependent_);

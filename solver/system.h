@@ -33,6 +33,8 @@ struct TreeBody {
   int parent_node = -1;  ///< interface node of a flexible parent that carries the joint; -1: rigid parent
   Pose X_PF;  ///< inboard joint frame on the parent (the node's undeformed position on a flexible one)
   Pose X_MB;  ///< body frame in the outboard joint frame
+  bool turned_PF = false,
+       turned_MB = false;  ///< whether these rotations are other than the identity, and so take part
   TreeJoint joint;
   int q_start = 0, v_start = 0;   ///< of the joint's coordinates and speeds
   int nq = 0, nv = 0;             ///< of the joint

@@ -146,6 +146,8 @@ void SystemBuilder::add_tree_body(int entry, System& system, State& state) {
     const Pose X_WF{joint.first_is_child ? X_WP.R : source.X_WB.R, joint.p_W};
     body.X_PF = X_WP.inverse() * X_WF;
     body.X_MB = X_WF.inverse() * source.X_WB;
+    // of two equal orientations only rounding is left
+    (joint.first_is_child ? body.X_PF : body.X_MB).R.setIdentity();
     const InitialMotion& initial = joint.initial;
     if (body.nq == body.nv)
       for (std::size_t i = 0; i < initial.coordinates.size(); ++i) q[i] = initial.coordinates[i];
@@ -153,6 +155,9 @@ void SystemBuilder::add_tree_body(int entry, System& system, State& state) {
     weights_.resize(system.nv, 1.0);
     weights_.insert(weights_.end(), initial.weights.begin(), initial.weights.end());
   }
+
+  body.turned_PF = !body.X_PF.R.isIdentity(0);
+  body.turned_MB = !body.X_MB.R.isIdentity(0);
 
   body.q_start = system.nq;
   body.v_start = system.nv;

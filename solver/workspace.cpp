@@ -11,6 +11,7 @@ namespace wishbone {
 template <class T>
 Evaluation<T>::Evaluation(const System& system)
     : bodies(system.bodies.size()),
+      H(system.nv, Vector6T<T>::Zero()),
       markers(system.markers.size()),
       marker_accelerations(system.markers.size()),
       wrenches(system.markers.size()),
@@ -36,6 +37,8 @@ template struct Evaluation<Dual>;
 Workspace::Workspace(const System& system)
     : Evaluation<double>(system),
       articulated(system.bodies.size()),
+      G(system.nv, Vector6::Zero()),
+      root(VectorX::Ones(system.nv)),
       v_rate(VectorX::Zero(system.nv)),
       e(VectorX::Zero(system.nv)),
       hinge_force(VectorX::Zero(system.nv)),

@@ -9,10 +9,8 @@ namespace wishbone {
 
 /// Articulated-body numbers of one body, world axes about Bo.
 struct ArticulatedBody {
-  Matrix6 P = Matrix6::Zero();  ///< articulated inertia
-  Matrix6 L = Matrix6::Zero();  ///< Cholesky factor of D = H^T P H
-  Matrix6 G = Matrix6::Zero();  ///< P H L^-T, first nv columns
-  Vector6 Z = Vector6::Zero();  ///< articulated bias force
+  Matrix6 P = Matrix6::Zero();  ///< articulated inertia; after factoring P+, as felt through the joint
+  Vector6 Z = Vector6::Zero();  ///< articulated bias force; after calc_bias as felt through the joint at rest
 };
 
 /// Modal coordinates of one flexible body while they are condensed.
@@ -55,10 +53,12 @@ struct Workspace : Evaluation<double> {
 
   std::vector<ArticulatedBody> articulated;
   std::vector<CondensedModes> condensed;
-  VectorX v_rate;       ///< v'
-  VectorX e;            ///< F tau, nv (articulated_body.h)
-  VectorX hinge_force;  ///< generalised forces (nv), for Terms::hinge_forces
-  VectorX stiffening;   ///< factor on the hinge inertia of each speed while assembling; empty: none
+  std::vector<Vector6> G;  ///< P H L^-T, a column for each speed of the joints
+  VectorX root;            ///< diagonal of L: root of the inertia that each speed of the joints moves
+  VectorX v_rate;          ///< v'
+  VectorX e;               ///< F tau, nv (articulated_body.h)
+  VectorX hinge_force;     ///< generalised forces (nv), for Terms::hinge_forces
+  VectorX stiffening;      ///< factor on the inertia that each speed moves, while assembling; empty: none
   ClosureFactor closure;
   VectorX lambda;        ///< all rows; zero for those not kept
   VectorX displacement;  ///< nv
