@@ -7,6 +7,7 @@
 #include "solver/articulated_body.h"
 #include "solver/assembly.h"
 #include "solver/closure_dynamics.h"
+#include "solver/closure_rank.h"
 #include "solver/forward_dynamics.h"
 #include "solver/kinematics.h"
 
@@ -53,39 +54,45 @@ Vector3 random_point(int i, const Mechanism& mechanism, Random& random) {
   return mechanism.bodies[i < 0 ? random.index(count) : i].X_WB.p + random.vector(0.4);
 }
 
-CutJoint random_cut(int i, double distance, Random& random) {
-  switch (random.index(12)) {
+CutJoint random_cut(const std::string& name, double distance, bool common, Random& random) {
+  switch (random.index(common ? 12 : 14)) {
     case 0:
-      return RevoluteClosure{};
+      return FixedClosure{};
     case 1:
-      return PrismaticClosure{};
+      return RevoluteClosure{};
     case 2:
-      return CylindricalClosure{};
+      return PrismaticClosure{};
     case 3:
-      return UniversalClosure{};
+      return CylindricalClosure{};
     case 4:
-      return PlanarClosure{};
+      return UniversalClosure{};
     case 5:
-      return PointOnLineClosure{};
+      return PlanarClosure{};
     case 6:
+      return PointOnLineClosure{};
     case 7:
-      return PointOnPlaneClosure{};
     case 8:
+      return PointOnPlaneClosure{};
     case 9:
       return SphericalClosure{};
+    case 10:
+    case 11:
+      return DistanceClosure(name, distance);
+    case 12:
+      return ScrewClosure(random.uniform(0.05, 0.3));
     default:
-      return DistanceClosure("closure " + std::to_string(i), distance);
+      return ConstantVelocityClosure{};
   }
 }
 
-Mechanism::Closure random_closure(const Mechanism& mechanism, bool floating, Random& random) {
+Mechanism::Closure random_closure(const Mechanism& mechanism, const Likeness& likeness, Random& random) {
   Mechanism::Closure closure;
   const auto bodies = static_cast<int>(mechanism.bodies.size());
-  std::tie(closure.A, closure.B) = random_pair(bodies, floating, random);
+  std::tie(closure.A, closure.B) = random_pair(bodies, likeness.floating, random);
   closure.X_WA = {random.rotation(), random_point(closure.A, mechanism, random)};
   const Vector3 far = random_point(closure.B, mechanism, random);
-  closure.joint =
-      random_cut(static_cast<int>(mechanism.closures.size()), (far - closure.X_WA.p).norm(), random);
+  const std::string name = "closure " + std::to_string(mechanism.closures.size());
+  closure.joint = random_cut(name, (far - closure.X_WA.p).norm(), likeness.common_closures, random);
   closure.p_WB = std::holds_alternative<DistanceClosure>(closure.joint) ? far : closure.X_WA.p;
   return closure;
 }
@@ -96,10 +103,11 @@ bool is_sound(const Mechanism& mechanism) {
   return built.system.nv - built.system.n_rows >= kFewestFreedoms && closure_sine(built) > kSmallestSine;
 }
 
-void add_closures(int count, bool floating, Mechanism& mechanism, Random& random) {
+void add_closures(const Likeness& likeness, Mechanism& mechanism, Random& random) {
+  const int count = likeness.closures;
   for (int trial = 0; trial < 4 * count; ++trial) {
     if (static_cast<int>(mechanism.closures.size()) == count) return;
-    mechanism.closures.push_back(random_closure(mechanism, floating, random));
+    mechanism.closures.push_back(random_closure(mechanism, likeness, random));
     if (!is_sound(mechanism)) mechanism.closures.pop_back();
   }
 }
@@ -145,7 +153,7 @@ Mechanism random_mechanism(const Likeness& likeness, Random& random) {
     mechanism.joints.push_back(joint);
   }
   if (likeness.bodies == 1 && likeness.floating) return mechanism;
-  add_closures(likeness.closures, likeness.floating, mechanism, random);
+  add_closures(likeness, mechanism, random);
   for (int i = 0; i < likeness.springs; ++i)
     mechanism.springs.push_back(random_spring(mechanism, likeness.floating, random));
   return mechanism;
@@ -165,6 +173,7 @@ double closure_sine(const Built& m) {
   update_state(m.system, m.state, ws);
   factor_inertia(m.system, ws);
   keep_rows(all_rows(m.system), m.system, ws);
+  if (find_independent_rows(m.system, ws) != all_rows(m.system)) return 0;
   factor_closures(m.system, kDynamicsRankTolerance, ws);
   return ws.closure.least_sine;
 }

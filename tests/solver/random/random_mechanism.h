@@ -10,6 +10,8 @@ struct Likeness {
   int closures = 0;  ///< at most: those are left out that would leave too few freedoms or depend on others
   int springs = 4;   ///< with dampers
   bool floating = false;  ///< one free body carries all others, nothing holds on to the ground, no gravity
+  bool common_closures =
+      false;  ///< only those that other engines have too: no screws and no constant-velocity joints
 };
 
 /// Random masses, inertias, places and axes; tree joints and closures of all kinds.

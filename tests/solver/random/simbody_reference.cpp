@@ -137,7 +137,8 @@ class Mechanism {
   void add_closure(const Json& json) {
     const int A = json.at("bodies")[0], B = json.at("bodies")[1];
     const Transform X_WA = pose_of(json.at("pose"));
-    const Vec3 p_A = point_on(A, X_WA.p()), p_B = point_on(B, vector_of(json.at("other_point")));
+    const Vec3 p_WB = vector_of(json.at("other_point"));
+    const Vec3 p_A = point_on(A, X_WA.p()), p_B = point_on(B, p_WB);
     const auto axis = [&](int i, SimTK::CoordinateAxis k) { return axis_on(i, X_WA.R().getAxisUnitVec(k)); };
     const auto normal = [&](SimTK::CoordinateAxis i, SimTK::CoordinateAxis j) -> Constraint {
       return Constraint::ConstantAngle(body(A), axis(A, i), body(B), axis(B, j));
@@ -154,7 +155,9 @@ class Mechanism {
     const std::string kind = json.at("kind");
     Closure closure{{}, body(A).getMobilizedBodyIndex(), p_A};
     auto& parts = closure.constraints;
-    if (kind == "spherical")
+    if (kind == "fixed")
+      parts = {Constraint::Weld(body(A), ~design(A) * X_WA, body(B), ~design(B) * Transform(X_WA.R(), p_WB))};
+    else if (kind == "spherical")
       parts = {ball()};
     else if (kind == "revolute")
       parts = {ball(), normal(x, z), normal(y, z)};
@@ -172,7 +175,7 @@ class Mechanism {
     else if (kind == "planar")
       parts = {on_plane(), normal(x, z), normal(y, z)};
     else if (kind == "distance")
-      parts = {Constraint::Rod(body(A), p_A, body(B), p_B, (design(A) * p_A - design(B) * p_B).norm())};
+      parts = {Constraint::Rod(body(A), p_A, body(B), p_B, (p_WB - X_WA.p()).norm())};
     else
       throw std::runtime_error("no constraint for the closure '" + kind + "'");
     closures_.push_back(closure);

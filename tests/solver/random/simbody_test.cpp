@@ -2,6 +2,9 @@
 // exchanged as plain data and the states as motions of bodies in the world, so that no coordinates need match.
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string>
+
 #include "solver/closures.h"
 #include "solver/forward_dynamics.h"
 #include "solver/random/random_mechanism.h"
@@ -16,6 +19,7 @@ using testing::BodyMotions;
 using testing::Built;
 using testing::Likeness;
 using testing::Mechanism;
+using testing::Random;
 using testing::SimbodyAnswer;
 
 constexpr double kDuration = 1;      // [s]
@@ -49,57 +53,89 @@ double difference(const List& found, const List& expected) {
   return (stacked(found) - stacked(expected)).norm() / stacked(expected).norm();
 }
 
-/// A mechanism drawn by its seed, in two ways.
-class RandomMechanism : public ::testing::TestWithParam<int> {
+struct Drawn {
+  Mechanism mechanism;
+  Built built;
+};
+
+/// Every other mechanism has closures.
+Drawn drawn(int seed) {
+  Random random(static_cast<unsigned>(seed));
+  const bool closed = seed % 2 == 0;
+  Likeness likeness;
+  likeness.bodies = random.index(13) + 8;
+  likeness.closures = closed ? likeness.bodies / 2 : 0;
+  likeness.common_closures = true;
+  Drawn drawn;
+  drawn.mechanism = random_mechanism(likeness, random);
+  drawn.built = in_random_state(drawn.mechanism, random);
+  EXPECT_EQ(closed, !drawn.mechanism.closures.empty()) << "seed " << seed;
+  return drawn;
+}
+
+class SimbodyComparison : public ::testing::TestWithParam<int> {
  protected:
   void SetUp() override {
     if (!testing::simbody_is_installed()) GTEST_SKIP() << "Simbody (libsimbody-dev) is not installed";
-    const int seed = GetParam();
-    testing::Random random(static_cast<unsigned>(seed));
-    // five open mechanisms and five closed ones, from 4 to 20 bodies
-    const int bodies = 4 + 4 * ((seed - 1) % 5);
-    mechanism_ = random_mechanism({.bodies = bodies, .closures = seed > 5 ? bodies / 2 : 0}, random);
-    built_ = in_random_state(mechanism_, random);
-    simbody_ = ask_simbody(mechanism_, motions_of(built_.system, built_.state), kDuration, kAccuracy);
   }
-
-  Mechanism mechanism_;
-  Built built_;
-  SimbodyAnswer simbody_;
 };
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomMechanism, ::testing::Range(1, 11),
+INSTANTIATE_TEST_SUITE_P(Seeds, SimbodyComparison, ::testing::Range(1, 11),
                          [](const auto& p) { return std::to_string(p.param); });
 
-TEST_P(RandomMechanism, StandsAndMovesAsInSimbody) {
-  const BodyMotions start = motions_of(built_.system, built_.state);
-  EXPECT_LT(difference(start.poses, simbody_.start.poses), 1e-12);
-  EXPECT_LT(difference(start.velocities, simbody_.start.velocities), 1e-11);
-}
+void expect_same_instant(const Drawn& d) {
+  const System& system = d.built.system;
+  const BodyMotions start = motions_of(system, d.built.state);
+  const SimbodyAnswer simbody = ask_simbody(d.mechanism, start, 0, kAccuracy);
+  EXPECT_LT(difference(start.poses, simbody.start.poses), 1e-12);
+  EXPECT_LT(difference(start.velocities, simbody.start.velocities), 1e-12);
 
-TEST_P(RandomMechanism, AcceleratesAsInSimbody) {
-  Workspace ws = testing::with_independent_rows(built_);
-  calc_forward_dynamics(built_.system, built_.state, ws);
+  Workspace ws = testing::with_independent_rows(d.built);
+  calc_forward_dynamics(system, d.built.state, ws);
+  calc_reactions(system, ws);
   std::vector<Vector6> accelerations, joint_reactions, closure_reactions;
-  calc_reactions(built_.system, ws);
   for (int i = 0; i < static_cast<int>(ws.bodies.size()); ++i) {
     accelerations.push_back(ws.bodies[i].A);
-    const Vector6 on_first = tree_joint_reaction(built_.system, ws, i);
-    joint_reactions.push_back(mechanism_.joints[i].reversed ? on_first : Vector6(-on_first));
+    const Vector6 on_first = tree_joint_reaction(system, ws, i);
+    joint_reactions.push_back(system.bodies[i].first_is_child ? on_first : Vector6(-on_first));
   }
-  for (const Closure& closure : built_.system.closures)
+  for (const Closure& closure : system.closures)
     closure_reactions.push_back(closure_wrench(closure, 0, ws.lambda, ws));
-  EXPECT_LT(difference(accelerations, simbody_.accelerations), 1e-10);
-  EXPECT_LT(difference(joint_reactions, simbody_.joint_reactions), 1e-10);
+  EXPECT_LT(difference(accelerations, simbody.accelerations), 1e-10);
+  EXPECT_LT(difference(joint_reactions, simbody.joint_reactions), 1e-10);
   if (closure_reactions.empty()) return;
-  EXPECT_LT(difference(closure_reactions, simbody_.closure_reactions), 1e-10);
+  EXPECT_LT(difference(closure_reactions, simbody.closure_reactions), 1e-10);
 }
 
-TEST_P(RandomMechanism, ArrivesWhereItDoesInSimbody) {
+TEST_P(SimbodyComparison, FindsTheSameAccelerationsAndReactions) {
+  for (int i = 0; i < 5; ++i) {
+    const int seed = GetParam() + 10 * i;
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    expect_same_instant(drawn(seed));
+  }
+}
+
+TEST_P(SimbodyComparison, ArrivesAtTheSamePlace) {
+  const auto [mechanism, built] = drawn(GetParam());
+  const SimbodyAnswer simbody =
+      ask_simbody(mechanism, motions_of(built.system, built.state), kDuration, kAccuracy);
   const testing::Trajectory run =
-      testing::simulate(built_.system, built_.state, kDuration, kDuration, kAccuracy);
+      testing::simulate(built.system, built.state, kDuration, kDuration, kAccuracy);
   ASSERT_EQ(run.summary.status, TransientSummary::Status::complete) << run.summary.message;
-  const BodyMotions end = motions_of(built_.system, run.last());
-  EXPECT_LT(difference(end.poses, simbody_.end.poses), 1e-8);
+  const BodyMotions end = motions_of(built.system, run.last());
+  EXPECT_LT(difference(end.poses, simbody.end.poses), 1e-8);
+}
+
+TEST(SimbodyComparisons, TryEveryJointAndEveryClosureThatSimbodyHas) {
+  std::set<std::string> joints, closures;
+  for (int seed = 1; seed <= 50; ++seed) {
+    const Mechanism mechanism = drawn(seed).mechanism;
+    for (const auto& joint : mechanism.joints) joints.emplace(info(joint.kind).name);
+    for (const auto& closure : mechanism.closures) closures.emplace(joint_kind(closure.joint));
+  }
+  EXPECT_EQ(joints.size(), 10u);
+  EXPECT_EQ(closures,
+            (std::set<std::string>{"cylindrical", "distance", "fixed", "planar", "point_on_line",
+                                   "point_on_plane", "prismatic", "revolute", "spherical", "universal"}));
 }
 
 }  // namespace
