@@ -23,6 +23,7 @@ constexpr double kContradictionTolerance = 1e-8;  // residual of a redundant row
 constexpr int kMaxAssemblySteps = 200;
 constexpr double kMaxDamping = 1e12;
 constexpr double kFastConvergence = 0.1;  // of residuals, below which a factor serves again
+constexpr double kDivergence = 10;        // of residuals, above which there is no pose to be found
 
 void update_closed_kinematics(const System& system, const State& state, Workspace& ws) {
   ++ws.work.position;
@@ -114,7 +115,8 @@ bool project_positions(const System& system, double tolerance, bool& factored, S
   for (int iteration = 0; iteration <= kMaxProjections; ++iteration) {
     update_closed_kinematics(system, state, ws);
     const double residual = largest_kept(ws.Phi, factored, ws);
-    if (!std::isfinite(residual)) return false;
+    // not that of a step to where weakly closed rows have no slope: the pose may be so far that its inertia has no digits
+    if (!std::isfinite(residual) || residual > kDivergence * last) return false;
     // one correction takes the residual to rounding; stopping short of it would leave noise that does not shrink with the
     // step and that multistep formulas amplify
     if (residual <= rounding_residual(ws) || (iteration > 0 && residual <= tolerance)) return true;

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 
+#include "core/error.h"
 #include "solver/assembly.h"
 #include "solver/closures.h"
 #include "solver/energy.h"
 #include "solver/forward_dynamics.h"
+#include "solver/kinematics.h"
 #include "solver/random/random_mechanism.h"
 #include "solver/reactions.h"
 
@@ -75,6 +77,21 @@ Vector6 size_of_momentum(const System& system, const State& state) {
     angular_size += s.X_WB.p.norm() * p + body.J_B.norm() * angular(s.V).norm();
   }
   return spatial(Vector3::Constant(angular_size), Vector3::Constant(linear_size));
+}
+
+RC_GTEST_PROP(AnyPose, IsEitherClosedOrRefused, ()) {
+  auto [random, mechanism] = some_mechanism(20);
+  Built m = build(mechanism);
+  retract(m.system, random.numbers(m.system.nv, 3), m.state.q);
+  try {
+    testing::assembled(m);
+  } catch (const InputError&) {
+    return;
+  }
+  Workspace ws(m.system);
+  update_state(m.system, m.state, ws);
+  RC_ASSERT(ws.Phi.lpNorm<Eigen::Infinity>() <= 1e-10);
+  RC_ASSERT(ws.Phi_rate.lpNorm<Eigen::Infinity>() <= 1e-10);
 }
 
 RC_GTEST_PROP(AnyFloatingMechanism, KeepsItsMomentum, ()) {
