@@ -141,12 +141,25 @@ void project_velocities(const System& system, bool& factored, State& state, Work
   }
 }
 
+/// Whether a trial pose could be closed, weakly closed rows included. Undamped, a projection may run off to where the inertia
+/// has no digits left, or to where the coordinates of a joint end.
+bool close_trial(const System& system, State& state, Workspace& ws) {
+  bool factored = false;
+  try {
+    return project_positions(system, kProjectionTolerance, factored, state, ws) &&
+           ws.Phi.cwiseAbs().maxCoeff() <= kContradictionTolerance;
+  } catch (const NumericsError&) {
+    return false;
+  }
+}
+
 /// Moves along the closed poses to the one nearest to q0 in the metric of kinetic energy: the displacement from q0 is made
 /// orthogonal to the motions that the closures leave.
 void approach(const System& system, const VectorX& q0, State& state, Workspace& ws) {
   constexpr int kMaxSteps = 30;
   constexpr double kNear = 1e-10;
   State probe = state;
+  VectorX nearest = state.q;
   double last = std::numeric_limits<double>::infinity();
   for (int step = 0; step < kMaxSteps; ++step) {
     // what the closures leave of the displacement taken as speeds, D d = 0; driven rows at rest
@@ -161,12 +174,16 @@ void approach(const System& system, const VectorX& q0, State& state, Workspace& 
     calc_projection(system, ws.Phi_rate - drift, ws);
     const VectorX tangential = d + ws.displacement;
     const double size = tangential.cwiseAbs().maxCoeff();
-    if (!(size > kNear) || !(size < last)) return;
+    if (!(size < last)) {  // no nearer: back to the pose before
+      state.q = nearest;
+      return;
+    }
+    if (!(size > kNear)) return;
     last = size;
+    nearest = state.q;
     probe.q = state.q;
     retract(system, -tangential, probe.q);
-    bool factored = false;
-    if (!project_positions(system, kProjectionTolerance, factored, probe, ws)) return;
+    if (!close_trial(system, probe, ws)) return;
     state.q = probe.q;
   }
 }

@@ -7,6 +7,7 @@
 #include "solver/closures.h"
 #include "solver/forward_dynamics.h"
 #include "solver/mechanisms.h"
+#include "solver/reactions.h"
 
 namespace wishbone {
 namespace {
@@ -181,6 +182,27 @@ TEST(Bricard, IsFoundToHaveOneRedundantRowAndFollowsA04) {
       EXPECT_NEAR(energy_balance(m.system, run.states[t], {}), -29.43, 1e-7) << name(scheme) << " t = " << t;
     }
   }
+}
+
+TEST(Reactions, OfABeamThatIsClampedAtBothEndsAreSharedEvenly) {
+  // all six rows of the second clamp are redundant; of the least norm are half the weight each and no moments
+  const double weight = 2 * 9.81;
+  SystemBuilder b;
+  b.gravity = {0, -9.81, 0};
+  const int beam = b.add_body("beam", 2, diagonal(1, 1, 1), {});
+  const Vector3 left(-1, 0, 0), right(1, 0, 0);
+  b.add_joint("left", {}, beam, left, FixedJoint{});
+  b.add_closure("right", b.add_marker({}, right), b.add_marker({beam}, right), FixedClosure{});
+  Built m = build(std::move(b));
+  Workspace ws = assembled(m);
+  EXPECT_TRUE(ws.closure.kept.empty());
+  calc_forward_dynamics(m.system, m.state, ws);
+  calc_reactions(m.system, ws);
+  Vector6 half_weight = Vector6::Zero();
+  half_weight[4] = -weight / 2;
+  EXPECT_LT((tree_joint_reaction(m.system, ws, 0) - half_weight).norm(), 1e-12 * weight);
+  EXPECT_LT((closure_wrench<double>(m.system.closures[0], 0, ws.lambda, ws) - half_weight).norm(),
+            1e-12 * weight);
 }
 
 TEST(Reactions, OfATriangleOfRodsAreThoseOfStatics) {
