@@ -110,7 +110,7 @@ TEST_P(Cuts, ChangeNeitherMotionNorReactions) {
 INSTANTIATE_TEST_SUITE_P(, Cuts, testing::Values("MOTOR", "NEAR", "FAR", "HINGE"),
                          [](const auto& p) { return std::string(p.param); });
 
-TEST(Cuts, CostAsManyRowsAsTheirJoints) {
+TEST(CutJoints, CostAsManyRowsAsTheirJoints) {
   const auto rows = [](const char* joint) {
     const Scene scene = scene_cut_at(joint);
     return make_plan(scene, compile(scene)).closure_rows;
@@ -121,7 +121,7 @@ TEST(Cuts, CostAsManyRowsAsTheirJoints) {
   EXPECT_EQ(rows("HINGE"), 5);
 }
 
-TEST(Cuts, AreExplainedInThePlan) {
+TEST(CutJoints, AreExplainedInThePlan) {
   const auto choice = [](const char* pin, std::size_t joint) {
     const Scene scene = scene_cut_at(pin);
     return make_plan(scene, compile(scene)).joints.at(joint);
@@ -138,7 +138,7 @@ TEST(Cuts, AreExplainedInThePlan) {
   EXPECT_FALSE(choice("MOTOR", 1).cut);
 }
 
-TEST(Cuts, MobilityIsThatOfTheMechanism) {
+TEST(CutJoints, MobilityIsThatOfTheMechanism) {
   // the crank, and the spin of the coupler about its ball joints
   for (const char* joint : {"", "MOTOR", "NEAR", "FAR", "HINGE"}) {
     const Scene scene = scene_cut_at(joint);
