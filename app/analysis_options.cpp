@@ -15,10 +15,13 @@ constexpr double kCoarsestRtol = 0.1;  // as in a scene
 constexpr double kMostOutputs = 1e7;   // as in a scene
 
 Form read_form(const std::string& text) {
-  return named_value<Form>(
-      "--form", text,
-      {{"auto", Form::automatic}, {"ode", Form::ode}, {"index1", Form::index1}, {"ggl", Form::ggl}},
-      "the integration forms");
+  return named_value<Form>("--form", text,
+                           {{"auto", Form::automatic},
+                            {"ode", Form::ode},
+                            {"index1", Form::index1},
+                            {"partition", Form::partition},
+                            {"ggl", Form::ggl}},
+                           "the integration forms");
 }
 
 Method read_integrator(const std::string& text) {
@@ -52,7 +55,7 @@ void add_analysis_options(CLI::App& command, AnalysisOptions& options) {
         ->type_name(type)
         ->group("Instead of the scene's analysis");
   };
-  add("--form", "NAME", "auto, ode, index1 or ggl",
+  add("--form", "NAME", "auto, ode, index1, partition or ggl",
       [&options](const std::string& text) { options.form = read_form(text); });
   add("--integrator", "NAME", "auto, adams, bdf or erk",
       [&options](const std::string& text) { options.integrator = read_integrator(text); });

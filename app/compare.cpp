@@ -10,8 +10,8 @@
 #include "app/comparison.h"
 #include "app/meta_text.h"
 #include "app/report_html.h"
-#include "app/table.h"
 #include "app/text_file.h"
+#include "app/text_table.h"
 
 namespace wishbone {
 
@@ -28,7 +28,7 @@ struct Options {
 void print_lines(const Comparison& comparison, const Options& options) {
   fmt::print("A: {} ({})\nB: {} ({})\n{}\n\n", options.title_a, options.a, options.title_b, options.b,
              comparison.common_time.text());
-  Table table({"signal", "unit", "max |A|", "max |B|", "max |A-B|", "rms A-B", "at [s]"}, 2);
+  TextTable table({"signal", "unit", "max |A|", "max |B|", "max |A-B|", "rms A-B", "at [s]"}, 2);
   for (const Difference& d : comparison.differences)
     table.add_row({d.channel.text(), d.units, brief(d.max_a), brief(d.max_b), brief(d.max_difference),
                    brief(d.rms_difference), brief(d.time_of_maximum)});

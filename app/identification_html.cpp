@@ -12,7 +12,7 @@
 #include "app/markup.h"
 #include "app/mode_text.h"
 #include "app/page.h"
-#include "app/table.h"
+#include "app/text_table.h"
 #include "core/error.h"
 
 namespace wishbone {

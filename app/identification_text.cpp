@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/meta_text.h"
-#include "app/table.h"
+#include "app/text_table.h"
 
 namespace wishbone {
 
@@ -16,13 +16,13 @@ std::string known(double value, double factor, const char* format) {
   return std::isfinite(value) ? fmt::format(fmt::runtime(format), factor * value) : "-";
 }
 
-Table mode_table(const Identification& id) {
+TextTable mode_table(const Identification& id) {
   const Judgement& j = id.judgement;
   std::vector<std::string> header{"mode", "f [Hz]"};
   if (j.frequency_std_hz.size() > 0) header.push_back("std [Hz]");
   header.insert(header.end(), {"zeta [%]", "est. error [%]", "bound [%]"});
   if (j.reference) header.insert(header.end(), {"reference [Hz]", "error [%]", "MAC"});
-  Table table(header, 0);
+  TextTable table(header, 0);
   for (Eigen::Index k = 0; k < j.frequency_hz.size(); ++k) {
     std::vector<std::string> row{std::to_string(k + 1), fmt::format("{:.6g}", j.frequency_hz[k])};
     if (j.frequency_std_hz.size() > 0) row.push_back(known(j.frequency_std_hz[k], 1, "{:.3g}"));

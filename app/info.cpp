@@ -7,7 +7,7 @@
 #include "app/command.h"
 #include "app/meta_text.h"
 #include "app/modal_summary.h"
-#include "app/table.h"
+#include "app/text_table.h"
 #include "app/universal_file_summary.h"
 #include "core/error.h"
 #include "core/hdf5.h"
@@ -69,7 +69,7 @@ void print_lines(const Facts& facts, const Options& options) {
                facts.time.size());
   if (facts.modes) print_modal_data(*facts.modes);
   fmt::print("\n");
-  Table table({"dataset", "shape", "unit", "frame", "about"}, 5);
+  TextTable table({"dataset", "shape", "unit", "frame", "about"}, 5);
   for (const DatasetFacts& d : facts.datasets)
     table.add_row({d.path, fmt::format("[{}]", fmt::join(d.shape, ", ")), d.units, d.frame, d.about});
   fmt::print("{}", table.text());

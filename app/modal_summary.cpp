@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "app/meta_text.h"
-#include "app/table.h"
+#include "app/text_table.h"
 #include "identification/formats/mode_file.h"
 
 namespace wishbone {
@@ -22,7 +22,7 @@ std::string text_of(const Vector3& u) {
 }
 
 void print_modes(const ModalData& data) {
-  Table table({"mode", "frequency [Hz]", "damping [%]", "modal mass [kg]"}, 1);
+  TextTable table({"mode", "frequency [Hz]", "damping [%]", "modal mass [kg]"}, 1);
   for (int j = 0; j < data.mode_count(); ++j)
     table.add_row({std::to_string(j + 1), fmt::format("{:.6g}", hertz(data.omega[j])),
                    brief(100 * data.damping_ratio[j]),

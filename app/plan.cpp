@@ -1,13 +1,15 @@
 #include "models/plan.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "app/analysis_options.h"
+#include "app/closure_text.h"
 #include "app/command.h"
 #include "app/scene_warnings.h"
+#include "app/text_table.h"
 #include "models/scene_loader.h"
 
 namespace wishbone {
@@ -27,22 +29,66 @@ void print_list(const char* title, const std::vector<std::string>& lines) {
   for (const std::string& line : lines) fmt::print("  {}\n", line);
 }
 
+void print_joints(const std::vector<JointChoice>& joints) {
+  if (joints.empty()) return;
+  TextTable table({"joint", "type", "bodies", "role", "rows", "why"}, 6);
+  for (const JointChoice& j : joints)
+    table.add_row({j.joint, j.kind, j.first + " - " + j.second, j.cut ? "cut" : "tree",
+                   j.cut ? fmt::format("{}", j.rows) : "", j.reason});
+  fmt::print("\n{}", table.text());
+}
+
+void print_closures(const Plan& plan) {
+  if (plan.closures.empty()) return;
+  TextTable table({"closure", "kind", "rows", "open as given", "after assembling"}, 5);
+  for (const PlannedClosure& c : plan.closures)
+    table.add_row({c.name, c.kind, fmt::format("{}", c.rows), text_of(c.given), text_of(c.closed)});
+  fmt::print("\n{}", table.text());
+  if (plan.displacement > 1e-9)
+    fmt::print("assembling moves a coordinate by {:.4g} (m or rad) at most\n", plan.displacement);
+}
+
 void print_lines(const Scene& scene, const Plan& plan) {
   if (!scene.title.empty()) fmt::print("{}\n\n", scene.title);
   fmt::print("bodies                {:5d}   of which flexible {}\n", plan.bodies, plan.flexible_bodies);
   fmt::print("joint coordinates     {:5d}   speeds {}\n", plan.coordinates, plan.speeds);
   fmt::print("elastic coordinates   {:5d}\n", plan.elastic_coordinates);
   fmt::print("prescribed joints     {:5d}\n", plan.prescribed);
-  fmt::print("cut joints            {:5d}   rows {}, redundant {}\n", plan.closures, plan.closure_rows,
-             plan.redundant_rows.size());
-  fmt::print("mobility              {:5d}   speeds minus independent closure rows\n", plan.mobility);
+  fmt::print("closures              {:5d}   rows {}, rank {}, redundant {}\n", plan.closures.size(),
+             plan.closure_rows, plan.rank, plan.redundant_rows.size());
+  fmt::print("mobility              {:5d}   speeds minus rank\n", plan.mobility);
   fmt::print("force elements        {:5d}\n", plan.force_elements);
   fmt::print("integration           {} by {}\n", plan.form, plan.integrator);
+  print_joints(plan.joints);
+  print_closures(plan);
   print_list("redundant closure rows, left out", plan.redundant_rows);
   print_list("tree", plan.tree);
   print_list("identified", plan.identified);
   print_list("kept", plan.kept);
   print_list("left out", plan.left_out);
+}
+
+nlohmann::ordered_json json_of(const std::vector<JointChoice>& joints) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  for (const JointChoice& j : joints)
+    out.push_back({{"joint", j.joint},
+                   {"type", j.kind},
+                   {"bodies", {j.first, j.second}},
+                   {"cut", j.cut},
+                   {"pinned", j.pinned},
+                   {"rows", j.rows},
+                   {"loop", j.loop},
+                   {"rows_saved", j.saved},
+                   {"reason", j.reason}});
+  return out;
+}
+
+nlohmann::ordered_json json_of(const std::vector<PlannedClosure>& closures) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  for (const PlannedClosure& c : closures)
+    out.push_back(
+        {{"closure", c.name}, {"kind", c.kind}, {"rows", c.rows}, {"assembly", json_of(c.given, c.closed)}});
+  return out;
 }
 
 void print_json(const Plan& plan) {
@@ -52,10 +98,13 @@ void print_json(const Plan& plan) {
                                    {"speeds", plan.speeds},
                                    {"elastic_coordinates", plan.elastic_coordinates},
                                    {"prescribed", plan.prescribed},
-                                   {"closures", plan.closures},
+                                   {"joints", json_of(plan.joints)},
+                                   {"closures", json_of(plan.closures)},
                                    {"closure_rows", plan.closure_rows},
+                                   {"rank", plan.rank},
                                    {"redundant_rows", plan.redundant_rows},
                                    {"mobility", plan.mobility},
+                                   {"displacement", plan.displacement},
                                    {"force_elements", plan.force_elements},
                                    {"form", plan.form},
                                    {"integrator", plan.integrator},
@@ -71,7 +120,7 @@ ExitCode run(const Options& options) {
   CompiledScene compiled = compile(scene);
   print_warnings(compiled);
   apply(options.analysis, compiled.transient);
-  const Plan plan = make_plan(compiled);
+  const Plan plan = make_plan(scene, compiled);
   options.json ? print_json(plan) : print_lines(scene, plan);
   return kDone;
 }

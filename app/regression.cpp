@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "app/difference.h"
-#include "app/table.h"
+#include "app/text_table.h"
 
 namespace wishbone {
 

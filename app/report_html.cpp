@@ -12,7 +12,7 @@
 #include "app/markup.h"
 #include "app/meta_text.h"
 #include "app/page.h"
-#include "app/table.h"
+#include "app/text_table.h"
 
 namespace wishbone {
 

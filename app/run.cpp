@@ -9,6 +9,7 @@
 
 #include "app/analysis_options.h"
 #include "app/check_output.h"
+#include "app/closure_text.h"
 #include "app/command.h"
 #include "app/scene_warnings.h"
 #include "models/run_scene.h"
@@ -82,8 +83,8 @@ std::vector<std::string> input_files(const std::string& path, const Scene& scene
     };
     (note_list(lists), ...);
   };
-  note_all(scene.bodies, scene.joints, scene.springs, scene.loads, scene.tire_models, scene.tires,
-           scene.motions);
+  note_all(scene.bodies, scene.joints, scene.closures, scene.springs, scene.signals, scene.loads,
+           scene.drives, scene.tire_models, scene.tires, scene.motions);
   if (scene.road) note(scene.road->where);
   if (scene.vehicle) note(scene.vehicle->where);
   note(scene.analysis.where);
@@ -112,6 +113,8 @@ void print_lines(const Options& options, const RunResult& result) {
   if (s.restarts > 0) fmt::print("  restarts at events: {}\n", s.restarts);
   for (const std::string& row : result.redundant_rows)
     fmt::print("  redundant closure row left out: {}\n", row);
+  for (const std::string& line : assembly_lines(s.assembly)) fmt::print("  {}\n", line);
+  for (const std::string& line : passage_lines(result.singular_passages)) fmt::print("  {}\n", line);
   const std::string rate =
       s.t_end > 0 ? fmt::format(" ({:.4f} s per simulated second)", result.cpu_seconds / s.t_end) : "";
   fmt::print("  CPU {:.3f} s{}, results in {}\n", result.cpu_seconds, rate, options.output);
@@ -129,6 +132,12 @@ void print_json(const Options& options, const RunResult& result) {
   for (const auto& [name, value] : s.statistics) out["statistics"][name] = value;
   out["restarts"] = s.restarts;
   out["redundant_rows"] = result.redundant_rows;
+  for (std::size_t c = 0; c < s.assembly.gaps.size(); ++c)
+    out["assembly"][s.assembly.gaps[c].name] = json_of(s.assembly.gaps[c], s.assembly.closed[c]);
+  out["singular_passages"] = nlohmann::ordered_json::array();
+  for (const NamedPassage& passage : result.singular_passages)
+    out["singular_passages"].push_back({{"t", passage.t}, {"row", passage.row}});
+  for (const auto& [name, count] : named_counts(result.work)) out["work"][name] = count;
   out["cpu_seconds"] = result.cpu_seconds;
   out["wall_seconds"] = result.wall_seconds;
   fmt::print("{}\n", out.dump(2));

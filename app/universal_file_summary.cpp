@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "app/meta_text.h"
-#include "app/table.h"
+#include "app/text_table.h"
 #include "identification/formats/uff/uff_modes.h"
 #include "identification/formats/uff/uff_text.h"
 
@@ -46,7 +46,7 @@ std::string text_of(const UffFreedom& freedom) {
 
 void print_shapes(const UffFile& file) {
   if (file.shapes.empty()) return;
-  Table table({"nodal result", "dataset", "line", "number", "frequency [Hz]", "nodes", "values each"}, 1);
+  TextTable table({"nodal result", "dataset", "line", "number", "frequency [Hz]", "nodes", "values each"}, 1);
   for (const UffShape& shape : file.shapes)
     table.add_row({analysis_name(shape.analysis), std::to_string(shape.dataset), std::to_string(shape.line),
                    std::to_string(shape.number), brief(shape.frequency), std::to_string(shape.nodes.size()),
@@ -57,7 +57,7 @@ void print_shapes(const UffFile& file) {
 void print_functions(const UffFile& file) {
   constexpr std::size_t kShown = 40;
   if (file.functions.empty()) return;
-  Table table({"function", "response", "reference", "storage", "points", "first", "step"}, 4);
+  TextTable table({"function", "response", "reference", "storage", "points", "first", "step"}, 4);
   for (std::size_t i = 0; i < std::min(kShown, file.functions.size()); ++i) {
     const UffFunction& f = file.functions[i];
     table.add_row({function_name(f.type), text_of(f.response), text_of(f.reference),
@@ -110,7 +110,7 @@ void print_universal_file(const UffFile& file) {
   print_shapes(file);
   print_functions(file);
   if (file.unused.empty()) return;
-  Table table({"not read", "line", "why"}, 3);
+  TextTable table({"not read", "line", "why"}, 3);
   for (const UffUnused& unused : file.unused)
     table.add_row({fmt::format("dataset {}", unused.dataset), std::to_string(unused.line), unused.why});
   fmt::print("\n{}", table.text());

@@ -112,10 +112,28 @@ class Compiler {
                             model.lag));
   }
 
+  /// On a flexible body, the node; on a rigid one, whose nodes are but points of it, the place.
+  BodyPoint body_point(const Scene::Point& point) const {
+    const Scene::Body& body = scene_.bodies[point.body];
+    return {builder_.built_index(point.body), body.X_DB.R.transpose() * (point.p_DP - body.X_DB.p),
+            attachment_of(scene_, point).node_id};
+  }
+
+  std::string units_of(const Scene::Signal& signal) const {
+    bool is_angle = false;
+    if (signal.type == Scene::SignalType::kCoordinate)
+      is_angle = info(scene_.joints[signal.of.joint].kind).coordinates[signal.of.coordinate].is_angle;
+    return std::string(is_angle ? "rad" : "m") + (signal.is_speed ? "/s" : "");
+  }
+
   ObserverOptions observer() const {
     ObserverOptions options;
     for (const Scene::NodeOutput& output : scene_.output.nodes)
       options.deflections.push_back({builder_.built_index(output.body), output.nodes});
+    for (const Scene::PointOutput& output : scene_.output.points)
+      options.points.push_back({output.name, body_point(output.point)});
+    for (const Scene::Signal& signal : scene_.signals)
+      options.signals.push_back({signal.name, units_of(signal)});
     if (!scene_.vehicle) return options;
     options.chassis = builder_.built_index(scene_.vehicle->chassis);
     for (const Scene::SteeringAngle& steering : scene_.vehicle->steering)

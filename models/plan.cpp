@@ -32,7 +32,7 @@ void list_parts(const System& system, Plan& plan) {
     damped = damped || body.modal.modes().damping_ratio.maxCoeff() > 0;
   if (plan.elastic_coordinates > 0)
     sort_into(damped, "structural damping", "structural damping: every damping ratio is zero", plan);
-  sort_into(plan.closures > 0, fmt::format("closure solver for {} rows", plan.closure_rows),
+  sort_into(!plan.closures.empty(), fmt::format("closure solver for {} rows", plan.closure_rows),
             "closure solver and projection: no cut joint", plan);
   sort_into(plan.prescribed > 0, fmt::format("{} prescribed motions", plan.prescribed),
             "prescribed motions: none", plan);
@@ -48,6 +48,17 @@ void list_parts(const System& system, Plan& plan) {
   sort_into(system.gravity.norm() > 0, "gravity", "gravity: zero", plan);
 }
 
+void list_closures(const System& system, const AssemblyReport& assembly, Plan& plan) {
+  for (std::size_t c = 0; c < system.closures.size(); ++c) {
+    const Closure& closure = system.closures[c];
+    plan.closures.push_back(
+        {closure.name, joint_kind(closure.joint), closure.rows, assembly.gaps[c], assembly.closed[c]});
+  }
+  for (const int row : assembly.redundant_rows) plan.redundant_rows.push_back(system.row_name(row));
+  plan.rank = system.n_rows - static_cast<int>(assembly.redundant_rows.size());
+  plan.displacement = assembly.displacement;
+}
+
 std::string identified_line(const IdentifiedBody& body) {
   const ModalData& input = body.identification.input;
   const int count = body.identification.modes.mode_count();
@@ -59,7 +70,7 @@ std::string identified_line(const IdentifiedBody& body) {
 
 }  // namespace
 
-Plan make_plan(const CompiledScene& compiled) {
+Plan make_plan(const Scene& scene, const CompiledScene& compiled) {
   const System& system = compiled.system;
   Plan plan;
   plan.bodies = static_cast<int>(system.bodies.size());
@@ -71,15 +82,15 @@ Plan make_plan(const CompiledScene& compiled) {
     plan.prescribed += std::holds_alternative<PrescribedJoint>(body.joint) ? 1 : 0;
     plan.tree.push_back(tree_line(system, body));
   }
-  plan.closures = static_cast<int>(system.closures.size());
+  plan.joints = joint_choices(scene);
   plan.closure_rows = system.n_rows;
   plan.force_elements = system.n_forces;
 
   Workspace ws(system);
   State state = compiled.initial;
   const AssemblyReport assembly = assemble(system, state, ws);
-  for (const int row : assembly.redundant_rows) plan.redundant_rows.push_back(system.row_name(row));
-  plan.mobility = system.nv - (system.n_rows - static_cast<int>(assembly.redundant_rows.size()));
+  list_closures(system, assembly, plan);
+  plan.mobility = system.nv - plan.rank;
 
   const IntegratorOptions integrator = resolve(compiled.transient.integrator, system);
   plan.form = to_string(integrator.form);

@@ -4,18 +4,30 @@
 #include <vector>
 
 #include "models/compile.h"
+#include "models/joint_choices.h"
 
 namespace wishbone {
+
+/// A closure of the compiled scene: of a cut joint, a drive, a coupling ...
+struct PlannedClosure {
+  std::string name, kind;
+  int rows = 0;
+  ClosureGap given;   ///< how far it is open in the pose that the scene gives
+  ClosureGap closed;  ///< and what is left when that is assembled
+};
 
 /// What a scene is compiled to, before anything runs.
 struct Plan {
   int bodies = 0, flexible_bodies = 0;
   int coordinates = 0, speeds = 0;  ///< of joints, elastic ones not counted
   int elastic_coordinates = 0;
-  int prescribed = 0;  ///< joints that follow a given motion
-  int closures = 0, closure_rows = 0;
-  std::vector<std::string> redundant_rows;
-  int mobility = 0;  ///< speeds (elastic ones included) minus independent closure rows
+  int prescribed = 0;               ///< joints that follow a given motion
+  std::vector<JointChoice> joints;  ///< the spanning tree
+  std::vector<PlannedClosure> closures;
+  int closure_rows = 0, rank = 0;           ///< rows in all, and how many are independent
+  std::vector<std::string> redundant_rows;  ///< by joint and direction
+  int mobility = 0;                         ///< speeds (elastic ones included) minus the rank
+  double displacement = 0;                  ///< largest change of a coordinate by assembling [m, rad]
   int force_elements = 0;
   std::string form, integrator;
   std::vector<std::string> tree;        ///< one line a body: joint, parent, freedoms
@@ -24,8 +36,8 @@ struct Plan {
   std::vector<std::string> left_out;    ///< what it does not need, and why
 };
 
-/// Assembles the initial state (so that redundant rows are known) and takes stock.
+/// Assembles the initial state (so that gaps and redundant rows are known) and takes stock. `compiled` is made of `scene`.
 /// @throws InputError when the state cannot be assembled
-Plan make_plan(const CompiledScene& compiled);
+Plan make_plan(const Scene& scene, const CompiledScene& compiled);
 
 }  // namespace wishbone

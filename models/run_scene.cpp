@@ -1,5 +1,6 @@
 #include "models/run_scene.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -16,6 +17,24 @@ std::string host_name() {
   char name[256] = {};
   gethostname(name, sizeof name - 1);
   return name;
+}
+
+/// "hinge: 0.001 m, 0 rad before, 2e-16 m, 0 rad after" for each closure.
+std::vector<std::string> gap_lines(const AssemblyReport& assembly) {
+  std::vector<std::string> lines;
+  for (std::size_t c = 0; c < assembly.gaps.size(); ++c) {
+    const ClosureGap &given = assembly.gaps[c], &closed = assembly.closed[c];
+    lines.push_back(fmt::format("{}: {:.6g} m, {:.6g} rad before, {:.1g} m, {:.1g} rad after", given.name,
+                                given.length, given.angle, closed.length, closed.angle));
+  }
+  return lines;
+}
+
+std::vector<std::string> passage_lines(const RunResult& result) {
+  std::vector<std::string> lines;
+  for (const NamedPassage& passage : result.singular_passages)
+    lines.push_back(fmt::format("{:.9g} s: {}", passage.t, passage.row));
+  return lines;
 }
 
 void record_facts(const Scene& scene, const RunRequest& request, const RunResult& result,
@@ -36,15 +55,10 @@ void record_facts(const Scene& scene, const RunRequest& request, const RunResult
   recorder.set_meta("restarts", static_cast<double>(s.restarts));
   recorder.set_meta("t_end", s.t_end);
   for (const auto& [name, value] : s.statistics) recorder.set_meta("solver_" + name, value);
-  const WorkCounters& w = result.work;
-  recorder.set_meta("work_position_sweeps", static_cast<double>(w.position));
-  recorder.set_meta("work_velocity_sweeps", static_cast<double>(w.velocity));
-  recorder.set_meta("work_force_evaluations", static_cast<double>(w.forces));
-  recorder.set_meta("work_inertia_factorizations", static_cast<double>(w.inertia));
-  recorder.set_meta("work_acceleration_solves", static_cast<double>(w.solves));
-  recorder.set_meta("work_closure_factorizations", static_cast<double>(w.closure_factorizations));
-  recorder.set_meta("work_projections", static_cast<double>(w.projections));
-  recorder.set_meta("work_inverse_dynamics", static_cast<double>(w.inverse_dynamics));
+  recorder.set_meta("assembly_gaps", gap_lines(s.assembly));
+  recorder.set_meta("singular_passages", passage_lines(result));
+  for (const auto& [name, count] : named_counts(result.work))
+    recorder.set_meta("work_" + name, static_cast<double>(count));
   recorder.set_run_meta("host", host_name());
   recorder.set_run_meta("wall_seconds", result.wall_seconds);
   recorder.set_run_meta("cpu_seconds", result.cpu_seconds);
@@ -100,6 +114,9 @@ RunResult run_scene(const Scene& scene, const CompiledScene& compiled, const Run
   result.work = ws.work;
   for (const int row : result.summary.assembly.redundant_rows)
     result.redundant_rows.push_back(compiled.system.row_name(row));
+  for (const SingularPassage& passage : result.summary.singular_passages)
+    result.singular_passages.push_back(
+        {passage.t, passage.row < 0 ? "" : compiled.system.row_name(passage.row)});
   result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start).count();
   result.cpu_seconds = static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
   record_facts(scene, request, result, recorder);

@@ -21,11 +21,18 @@ struct RunRequest {
 /// Where a run with these results keeps the modes that it identified for a body: OUT.BODY_modes.h5 beside OUT.h5.
 std::string identified_modes_path(const std::string& output_path, const std::string& body);
 
+/// A position where the closures lost rank, and the closure row that came closest to depending on the others.
+struct NamedPassage {
+  double t = 0;  ///< [s]
+  std::string row;
+};
+
 /// What the run came to, for the terminal and for machines.
 struct RunResult {
   TransientSummary summary;
   WorkCounters work;
   std::vector<std::string> redundant_rows;
+  std::vector<NamedPassage> singular_passages;
   double wall_seconds = 0, cpu_seconds = 0;
 };
 

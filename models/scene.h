@@ -259,9 +259,15 @@ struct Scene {
     int body = kGround;
     std::vector<int> nodes;  ///< from 1
   };
+  /// A point of a body whose motion is recorded.
+  struct PointOutput {
+    std::string name;
+    Point point;
+  };
   struct Output {
     double interval = 0.01;         ///< [s]; by default the whole run when that is shorter
     std::vector<NodeOutput> nodes;  ///< whose deflections are recorded (of modal bodies)
+    std::vector<PointOutput> points;
     Source where;
   };
 

@@ -60,7 +60,7 @@ void read_analysis(const Value& section, Scene& scene) {
 }
 
 void read_output(const Value& section, Scene& scene) {
-  const Mapping keys(section, {"interval", "nodes"});
+  const Mapping keys(section, {"interval", "nodes", "points"});
   Scene::Output& output = scene.output;
   output.where = section.where();
   if (const auto interval = keys.optional("interval")) {
@@ -83,6 +83,12 @@ void read_output(const Value& section, Scene& scene) {
       output.nodes.push_back(recorded);
     }
   }
+  if (const auto points = keys.optional("points"))
+    for (const auto& [name, value] : points->named()) {
+      const Mapping point(value, {"body", "at", "node"});
+      output.points.push_back({name, read_point(scene, read_body(scene, point.required("body")),
+                                                point.optional("at"), point.optional("node"), value)});
+    }
 }
 
 }  // namespace wishbone::scene_sections

@@ -3,15 +3,11 @@
 #include <algorithm>
 
 namespace wishbone {
-namespace {
 
-/// A driven coordinate costs a row more where its joint closes a loop, and none in the tree.
 int closure_rows(const Scene::Joint& joint) {
   const auto driven = std::count_if(joint.motion.begin(), joint.motion.end(), [](int m) { return m >= 0; });
   return info(joint.kind).closure_rows + static_cast<int>(driven);
 }
-
-}  // namespace
 
 SpanningTree scene_tree(const Scene& scene) {
   std::vector<GraphBody> bodies;

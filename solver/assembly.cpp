@@ -258,6 +258,7 @@ AssemblyReport assemble(const System& system, State& state, Workspace& ws) {
   VectorX d = VectorX::Zero(system.nv);
   calc_displacement(system, q0, state.q, d);
   report.displacement = d.size() > 0 ? d.cwiseAbs().maxCoeff() : 0.0;
+  report.closed = closure_gaps(system, ws);
   report.position_residual = ws.Phi.cwiseAbs().maxCoeff();
   report.velocity_residual = ws.Phi_rate.cwiseAbs().maxCoeff();
   return report;

@@ -19,8 +19,9 @@ struct AssemblyReport {
   int position_iterations = 0;
   double position_residual = 0;  ///< largest |Phi| after projection, all rows [m, rad]
   double velocity_residual = 0;
-  std::vector<ClosureGap> gaps;  ///< of each closure, in the pose that was given
-  double displacement = 0;       ///< largest change of a coordinate from that pose [m, rad]
+  std::vector<ClosureGap> gaps;    ///< of each closure, in the pose that was given
+  std::vector<ClosureGap> closed;  ///< what is left of them in the assembled pose
+  double displacement = 0;         ///< largest change of a coordinate from that pose [m, rad]
   std::vector<int> redundant_rows;
 };
 

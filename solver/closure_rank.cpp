@@ -46,6 +46,7 @@ VectorX calc_row_scales(const System& system, Workspace& ws) {
 
 /// As many rows as there are now, chosen by pivoting among all of them; empty when that gains nothing.
 std::vector<int> find_better_rows(const System& system, Workspace& ws) {
+  ++ws.work.rank_searches;
   const std::vector<int> kept = ws.closure.kept;
   const double sine = ws.closure.least_sine;
   keep_rows(all_rows(system), system, ws);
@@ -70,6 +71,7 @@ bool redundant_row_opens(const System& system, const Workspace& ws) {
 
 std::vector<int> find_independent_rows(const System& system, Workspace& ws) {
   if (system.n_rows == 0) return {};
+  ++ws.work.rank_searches;
   // Gram-Schmidt (twice, for safety) in the order of the scene: a row that nothing is left of is redundant. Pivoting by
   // length would find the same rank but name a different row from scene to scene.
   ws.closure.scales = calc_row_scales(system, ws);
@@ -96,8 +98,10 @@ RowRevision revise_rows(const System& system, const State& state, Workspace& ws)
     const std::vector<int> kept = ws.closure.kept;
     keep_rows(all_rows(system), system, ws);
     const std::vector<int> independent = find_independent_rows(system, ws);
-    keep_rows(independent.size() > kept.size() ? independent : kept, system, ws);
-    return independent.size() > kept.size() ? RowRevision::grown : RowRevision::unchanged;
+    const bool grown = independent.size() > kept.size();
+    keep_rows(grown ? independent : kept, system, ws);
+    ws.work.rank_revisions += grown ? 1 : 0;
+    return grown ? RowRevision::grown : RowRevision::unchanged;
   }
   if (ws.closure.kept.empty() || ws.closure.least_sine > kWeakSine) return RowRevision::unchanged;
   update_state(system, state, ws);
@@ -105,6 +109,7 @@ RowRevision revise_rows(const System& system, const State& state, Workspace& ws)
   const std::vector<int> better = find_better_rows(system, ws);
   if (better.empty()) return RowRevision::unchanged;
   keep_rows(better, system, ws);
+  ++ws.work.rank_revisions;
   return RowRevision::repivoted;
 }
 

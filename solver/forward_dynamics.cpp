@@ -12,7 +12,7 @@ namespace wishbone {
 void update_state(const System& system, const State& state, Workspace& ws) {
   ++ws.work.position;
   ++ws.work.velocity;
-  ++ws.work.forces;
+  count_forces(system, ws.work);
   update_state<double>(system, state.t, state.q, state.v, state.x, ws);
 }
 

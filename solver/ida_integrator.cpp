@@ -17,6 +17,7 @@
 #include "solver/ggl_jacobian.h"
 #include "solver/ggl_residual.h"
 #include "solver/integrator_failure.h"
+#include "solver/loads.h"
 #include "solver/sundials.h"
 
 namespace wishbone {
@@ -94,7 +95,10 @@ void IdaIntegrator::choose_rows() {
 
 void IdaIntegrator::calc_residual(double t, N_Vector y, N_Vector y_rate, N_Vector r) {
   Workspace& ws = equations_.workspace();
+  ++ws.work.position;
+  ++ws.work.velocity;
   ++ws.work.inverse_dynamics;
+  count_forces(equations_.system(), ws.work);
   residual_->evaluation().memory = ws.memory;
   residual_->calc(t, N_VGetArrayPointer(y), N_VGetArrayPointer(y_rate), N_VGetArrayPointer(r));
   const System& system = equations_.system();

@@ -65,6 +65,12 @@ void apply_forces(const System& system, double t, const VectorXT<T>& x, Evaluati
     add_wrench(system, static_cast<MarkerIndex>(i), ev.wrenches[i].t, ev.wrenches[i].f, ev);
 }
 
+void count_forces(const System& system, WorkCounters& work) {
+  ++work.forces;
+  work.signals += static_cast<long>(system.signals.size());
+  work.drives += static_cast<long>(std::get<std::vector<JointDrive>>(system.forces).size());
+}
+
 template <class T>
 void add_closure_loads(const System& system, const VectorXT<T>& lambda, Evaluation<T>& ev) {
   for (const Closure& closure : system.closures)

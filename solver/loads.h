@@ -1,6 +1,7 @@
 #pragma once
 
 #include "solver/evaluation.h"
+#include "solver/work_counters.h"
 
 namespace wishbone {
 
@@ -34,6 +35,9 @@ ForceInputT<T> force_input(double t, const VectorXT<T>& x, int x_start, int stat
 /// flexible bodies' modal loads; sets x_rate and element_powers. Needs update_markers.
 template <class T>
 void apply_forces(const System& system, double t, const VectorXT<T>& x, Evaluation<T>& ev);
+
+/// Counts one evaluation of all force elements and what it takes of signals and drives.
+void count_forces(const System& system, WorkCounters& work);
 
 /// Sets all applied loads to zero.
 template <class T>

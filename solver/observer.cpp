@@ -3,51 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "joints/joint_kind.h"
-#include "solver/closures.h"
 #include "solver/forward_dynamics.h"
-#include "solver/loads.h"
+#include "solver/observation.h"
 #include "solver/reactions.h"
 
 namespace wishbone {
-namespace {
 
-constexpr const char* kWorld = "world";
-
-void put(const Vector3& a, double* out) {
-  Eigen::Map<Vector3>{out} = a;
-}
-
-/// World components of the joint's own frame F.
-Matrix3 inboard_rotation(const TreeBody& body, const Workspace& ws) {
-  return body.parent < 0 ? body.X_PF.R : Matrix3(ws.bodies[body.parent].X_WB.R * body.X_PF.R);
-}
-
-struct JointMotion {
-  double position = 0, rate = 0;
-};
-
-/// Coordinate and speed of a joint with one freedom or with a prescribed motion.
-JointMotion scalar_motion(const TreeBody& body, const State& state) {
-  if (const auto* prescribed = std::get_if<PrescribedJoint>(&body.joint)) {
-    const MotionValue u = prescribed->motion.at(state.t);
-    return {u.position, u.rate};
-  }
-  return {state.q[body.q_start], state.v[body.v_start]};
-}
-
-struct Units {
-  const char* coordinate;
-  const char* speed;
-};
-Units scalar_units(const TreeBody& body) {
-  const auto* prescribed = std::get_if<PrescribedJoint>(&body.joint);
-  const bool slides = std::holds_alternative<PrismaticJoint>(body.joint) ||
-                      (prescribed != nullptr && prescribed->kind == PrescribedJoint::Kind::prismatic);
-  return slides ? Units{"m", "m/s"} : Units{"rad", "rad/s"};
-}
-
-}  // namespace
+using namespace observation;
 
 Observer::Observer(const System& system, const ObserverOptions& options) : system_(system) {
   add_bodies(system);
@@ -56,6 +18,8 @@ Observer::Observer(const System& system, const ObserverOptions& options) : syste
   add_measured(system);
   add_closures(system);
   add_forces(system);
+  add_signals(options);
+  add_points(options);
   if (options.chassis >= 0) add_vehicle(options);
   add_energy();
   add_constraints(system);
@@ -133,144 +97,25 @@ void Observer::add_flexible(const System& system, const ObserverOptions& options
   }
 }
 
-void Observer::add_tree_joints(const System& system) {
-  for (std::size_t i = 0; i < system.bodies.size(); ++i) {
-    const TreeBody& body = system.bodies[i];
-    if (body.floating) continue;
-    const std::string path = "/joints/" + body.joint_name;
-    const bool prescribed = std::holds_alternative<PrescribedJoint>(body.joint);
-    if (prescribed || body.nv == 1) {
-      const Units units = scalar_units(body);
-      add(path + "/coordinates", {}, units.coordinate, "", "joint coordinate",
-          [i](const Sample& s, double* out) { *out = scalar_motion(s.system.bodies[i], s.state).position; });
-      add(path + "/speeds", {}, units.speed, "", "joint speed",
-          [i](const Sample& s, double* out) { *out = scalar_motion(s.system.bodies[i], s.state).rate; });
-    } else if (body.nv > 1 && body.nq == body.nv) {
-      const JointKindInfo& kind = *find_info(joint_kind(body.joint));
-      for (std::size_t k = 0; k < kind.coordinates.size(); ++k) {
-        const std::string name(kind.coordinates[k].name);
-        const bool angle = kind.coordinates[k].is_angle;
-        add(path + "/" + name, {}, angle ? "rad" : "m", "", "joint coordinate",
-            [q = body.q_start + k](const Sample& s, double* out) { *out = s.state.q[q]; });
-        add(path + "/" + name + "_rate", {}, angle ? "rad/s" : "m/s", "", "joint speed",
-            [v = body.v_start + k](const Sample& s, double* out) { *out = s.state.v[v]; });
-      }
-    } else if (body.nv > 1) {
-      add_rotation(path, body);
-      if (body.nv == 6) add_translation(path, body);
-    }
-    add(path + "/force", {3}, "N", kWorld, "reaction on the first-named body, at the joint",
-        [i](const Sample& s, double* out) {
-          put(linear(tree_joint_reaction(s.system, s.ws, static_cast<int>(i))), out);
-        });
-    add(path + "/moment", {3}, "N m", kWorld, "reaction moment on the first-named body, about the joint",
-        [i](const Sample& s, double* out) {
-          put(angular(tree_joint_reaction(s.system, s.ws, static_cast<int>(i))), out);
-        });
-    if (!prescribed) continue;
-    add(path + "/driving_force", {}, scalar_units(body).coordinate[0] == 'm' ? "N" : "N m", "",
-        "force or moment that the prescribed motion needs, along the axis, on the second-named body",
-        [i](const Sample& s, double* out) {
-          const TreeBody& b = s.system.bodies[i];
-          const auto& joint = std::get<PrescribedJoint>(b.joint);
-          const Vector3 axis = (b.first_is_child ? -1.0 : 1.0) * (inboard_rotation(b, s.ws) * joint.axis_F);
-          const Vector6 F = -tree_joint_reaction(s.system, s.ws, static_cast<int>(i));
-          *out = axis.dot(joint.kind == PrescribedJoint::Kind::revolute ? Vector3(angular(F))
-                                                                        : Vector3(linear(F)));
-        });
+void Observer::add_signals(const ObserverOptions& options) {
+  for (std::size_t i = 0; i < options.signals.size(); ++i) {
+    const ObserverOptions::NamedSignal& signal = options.signals[i];
+    add("/signals/" + signal.name, {}, signal.units, "", "signal that functions of loads may use",
+        [variable = i + 1](const Sample& s, double* out) { *out = s.ws.variables[variable]; });
   }
 }
 
-void Observer::add_rotation(const std::string& path, const TreeBody& body) {
-  add(path + "/orientation", {4}, "1", "second-named body to first-named body",
-      "unit quaternion w x y z of the relative rotation, the identity in the design pose",
-      [q = body.q_start](const Sample& s, double* out) {
-        Eigen::Map<Eigen::Vector4d>{out} = s.state.q.segment<4>(q);
-      });
-  add(path + "/angular_velocity", {3}, "rad/s", "second-named body", "relative angular velocity",
-      [v = body.v_start](const Sample& s, double* out) { put(s.state.v.segment<3>(v), out); });
-}
-
-void Observer::add_translation(const std::string& path, const TreeBody& body) {
-  add(path + "/position", {3}, "m", "first-named body", "origin of the second-named body",
-      [q = body.q_start](const Sample& s, double* out) { put(s.state.q.segment<3>(q + 4), out); });
-  add(path + "/velocity", {3}, "m/s", "first-named body", "velocity seen from the first-named body",
-      [v = body.v_start](const Sample& s, double* out) { put(s.state.v.segment<3>(v + 3), out); });
-}
-
-void Observer::add_measured(const System& system) {
-  for (std::size_t i = 0; i < system.measured.size(); ++i) {
-    const MeasuredCoordinate& c = system.measured[i];
-    const std::string path = "/joints/" + c.joint + "/";
-    const bool angle = c.gauge.is_angle();
-    add(path + (c.name.empty() ? "coordinates" : c.name), {}, angle ? "rad" : "m", "", "joint coordinate",
-        [i](const Sample& s, double* out) {
-          const MeasuredCoordinate& m = s.system.measured[i];
-          *out = m.gauge.value(s.ws.markers[m.A], s.ws.markers[m.B], s.ws.memory.measured_angles[i]);
-        });
-    add(path + (c.name.empty() ? "speeds" : c.name + "_rate"), {}, angle ? "rad/s" : "m/s", "", "joint speed",
-        [i](const Sample& s, double* out) {
-          const MeasuredCoordinate& m = s.system.measured[i];
-          *out = m.gauge.rate(s.ws.markers[m.A], s.ws.markers[m.B]);
-        });
+void Observer::add_points(const ObserverOptions& options) {
+  for (const ObserverOptions::Point& point : options.points) {
+    const std::string path = "/points/" + point.name;
+    const auto motion = [on = point.point](const Sample& s) { return calc_point_motion(s.system, on, s.ws); };
+    add(path + "/position", {3}, "m", kWorld, "position of the point",
+        [motion](const Sample& s, double* out) { put(motion(s).p_WQ, out); });
+    add(path + "/velocity", {3}, "m/s", kWorld, "velocity of the point",
+        [motion](const Sample& s, double* out) { put(motion(s).v_WQ, out); });
+    add(path + "/acceleration", {3}, "m/s2", kWorld, "acceleration of the point",
+        [motion](const Sample& s, double* out) { put(motion(s).a_WQ, out); });
   }
-}
-
-void Observer::add_closures(const System& system) {
-  for (std::size_t c = 0; c < system.closures.size(); ++c) {
-    const std::string path = "/joints/" + system.closures[c].name;
-    const auto reaction = [c](const Sample& s) -> Vector6 {
-      return closure_wrench(s.system.closures[c], 0, s.ws.lambda, s.ws);
-    };
-    add(path + "/force", {3}, "N", kWorld,
-        "reaction on the first-named body, at the joint; of least norm where the mechanism is "
-        "over-constrained",
-        [reaction](const Sample& s, double* out) { put(linear(reaction(s)), out); });
-    add(path + "/moment", {3}, "N m", kWorld, "reaction moment on the first-named body, about the joint",
-        [reaction](const Sample& s, double* out) { put(angular(reaction(s)), out); });
-  }
-}
-
-void Observer::add_forces(const System& system) {
-  int x_start = 0;
-  for_each_force(system, [&](const auto& element, int index) {
-    using Element = std::decay_t<decltype(element)>;
-    const int states = element.state_count();
-    const auto input = [=](const Sample& s) {
-      return force_input(s.state.t, s.state.x, x_start, states, index, s.ws);
-    };
-    if constexpr (std::is_same_v<Element, SpringDamper>) {
-      const std::string path = "/forces/" + element.name();
-      add(path + "/length", {}, "m", "", "distance of the end points",
-          [input, &element](const Sample& s, double* out) { *out = element.output(input(s)).length; });
-      add(path + "/rate", {}, "m/s", "", "rate of change of the length",
-          [input, &element](const Sample& s, double* out) { *out = element.output(input(s)).rate; });
-      add(path + "/force", {}, "N", "", "force, positive in tension",
-          [input, &element](const Sample& s, double* out) { *out = element.output(input(s)).force; });
-    } else if constexpr (requires { element.gauge(); }) {
-      const bool angle = element.gauge().is_angle();
-      const std::string path = "/forces/" + element.name();
-      add(path + "/value", {}, angle ? "rad" : "m", "", "joint coordinate",
-          [input, &element](const Sample& s, double* out) { *out = element.output(input(s)).value; });
-      add(path + "/force", {}, angle ? "N m" : "N", "", "along the coordinate, positive lets it grow",
-          [input, &element](const Sample& s, double* out) { *out = element.output(input(s)).force; });
-    } else if constexpr (std::is_same_v<Element, Tire>) {
-      const std::string path = "/tires/" + element.name();
-      add(path + "/force", {3}, "N", "contact axes ux uy uz", "on the wheel, at the contact point",
-          [input, &element](const Sample& s, double* out) { put(element.output(input(s)).force, out); });
-      add(path + "/moment", {3}, "N m", "contact axes ux uy uz", "on the wheel, about the contact point",
-          [input, &element](const Sample& s, double* out) { put(element.output(input(s)).moment, out); });
-      add(path + "/slip_ratio", {}, "1", "", "positive when braking",
-          [input, &element](const Sample& s, double* out) { *out = element.output(input(s)).slip_ratio; });
-      add(path + "/slip_angle", {}, "rad", "", "positive when the wheel slips to its left",
-          [input, &element](const Sample& s, double* out) { *out = element.output(input(s)).slip_angle; });
-      add(path + "/camber", {}, "rad", "", "positive when the top leans to the left",
-          [input, &element](const Sample& s, double* out) { *out = element.output(input(s)).camber; });
-      add(path + "/deflection", {}, "m", "", "radial deflection, negative in the air",
-          [input, &element](const Sample& s, double* out) { *out = element.output(input(s)).deflection; });
-    }
-    x_start += states;
-  });
 }
 
 void Observer::add_vehicle(const ObserverOptions& options) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solver/energy.h"
+#include "solver/point_motion.h"
 #include "solver/recorder.h"
 #include "solver/workspace.h"
 
@@ -22,8 +23,17 @@ struct ObserverOptions {
     int body = -1;    ///< body whose inboard joint steers
     double sign = 1;  ///< of the coordinate, positive to the left
   };
+  struct Point {
+    std::string name;
+    BodyPoint point;
+  };
+  struct NamedSignal {
+    std::string name, units;
+  };
   std::vector<Deflection> deflections;
-  int chassis = -1;  ///< body of the derived vehicle signals; -1: none
+  std::vector<Point> points;
+  std::vector<NamedSignal> signals;  ///< the first ones of System::signals, in their order
+  int chassis = -1;                  ///< body of the derived vehicle signals; -1: none
   std::vector<Steering> steering;
 };
 
@@ -59,6 +69,8 @@ class Observer {
   void add_measured(const System& system);
   void add_closures(const System& system);
   void add_forces(const System& system);
+  void add_signals(const ObserverOptions& options);
+  void add_points(const ObserverOptions& options);
   void add_vehicle(const ObserverOptions& options);
   void add_energy();
   void add_constraints(const System& system);

@@ -100,6 +100,7 @@ double PartitionedSystem::dependent_sine() const {
 }
 
 void PartitionedSystem::choose(const State& state) {
+  ++ws_.work.partitions;
   update_state(system_, state, ws_);
   factor_inertia(system_, ws_);
   calc_closure_jacobian();

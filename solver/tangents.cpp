@@ -67,11 +67,11 @@ void Tangents::solve(Eigen::Index k, Workspace& ws, Eigen::Ref<VectorX> v_rate) 
 
 void Tangents::calc(const State& state, const Directions& directions, Workspace& ws,
                     MotionDerivatives& derivatives) {
+  ++ws.work.tangents;
   const VectorX lambda = ws.lambda, v_rate = ws.v_rate;
   ev_.memory = ws.memory;
   for (Eigen::Index first = 0; first < directions.count(); first += Dual::kDirections) {
     const Eigen::Index count = std::min<Eigen::Index>(Dual::kDirections, directions.count() - first);
-    ++ws.work.tangents;
     seed(state, directions, first, count);
     set_values(v_rate, v_rate_);
     set_values(lambda, lambda_);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "solver/evaluation.h"
+#include "solver/work_counters.h"
 
 namespace wishbone {
 
@@ -20,12 +21,6 @@ struct CondensedModes {
   ///< no joint hangs on the nodes
   MatrixX Y;       ///< L_z^-1 M_zr, m x 6
   Matrix3X P_Psi;  ///< scratch: a child's P+ times the shapes of its node
-};
-
-/// Counts of work, the same on every machine.
-struct WorkCounters {
-  long position = 0, velocity = 0, forces = 0, inertia = 0, solves = 0, closure_factorizations = 0,
-       orthogonal_factorizations = 0, projections = 0, inverse_dynamics = 0, tangents = 0;
 };
 
 /// Factor of D M^-1 D^T = U^T U for the rows that are solved for.

@@ -217,7 +217,7 @@ TEST_F(RunCommandTest, AnalysisOptionsHaveTheLimitsOfTheScene) {
       {"--until 0", "--until: error: the value must be greater than 0 (got '0')"},
       {"--until 5kg", "--until: error: wrong dimension"},
       {"--until 1e9", "--until: error: the run would have more than ten million outputs"},
-      {"--form 2", "the integration forms are: auto, ode, index1, ggl"},
+      {"--form 2", "the integration forms are: auto, ode, index1, partition, ggl"},
       {"--form gll", "did you mean 'ggl'?"},
       {"--integrator bfd", "did you mean 'bdf'?"}};
   for (const auto& [option, message] : bad) {

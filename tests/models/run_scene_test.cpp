@@ -103,7 +103,7 @@ TEST(RunScene, JointAboutWhichNothingHasInertiaIsNamed) {
 
 TEST(Plan, LeavesOutWhatAPendulumDoesNotNeed) {
   const Scene scene = load_scene(std::string(WISHBONE_SCENES) + "/examples/pendulum.yaml");
-  const Plan plan = make_plan(compile(scene));
+  const Plan plan = make_plan(scene, compile(scene));
   EXPECT_EQ(plan.bodies, 1);
   EXPECT_EQ(plan.mobility, 1);
   EXPECT_EQ(plan.form, "ode");
@@ -114,7 +114,7 @@ TEST(Plan, LeavesOutWhatAPendulumDoesNotNeed) {
 
 TEST(Plan, CountsTheCar) {
   const Scene scene = load_scene(std::string(WISHBONE_SCENES) + "/sine_depression.yaml", {"chassis=rigid"});
-  const Plan plan = make_plan(compile(scene));
+  const Plan plan = make_plan(scene, compile(scene));
   EXPECT_EQ(plan.bodies, 11);
   EXPECT_EQ(plan.closure_rows, 24);
   EXPECT_THAT(plan.redundant_rows, ::testing::ElementsAre("front_left_stay (x)", "front_right_stay (x)",

@@ -1,4 +1,4 @@
-#include "app/table.h"
+#include "app/text_table.h"
 
 #include <fmt/core.h>
 
@@ -7,14 +7,14 @@
 
 namespace wishbone {
 
-Table::Table(std::vector<std::string> header, int text_columns)
+TextTable::TextTable(std::vector<std::string> header, int text_columns)
     : rows_{std::move(header)}, text_columns_(static_cast<std::size_t>(text_columns)) {}
 
-void Table::add_row(std::vector<std::string> cells) {
+void TextTable::add_row(std::vector<std::string> cells) {
   rows_.push_back(std::move(cells));
 }
 
-std::string Table::text() const {
+std::string TextTable::text() const {
   std::vector<std::size_t> widths(rows_.front().size(), 0);
   for (const auto& row : rows_)
     for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());

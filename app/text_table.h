@@ -6,10 +6,10 @@
 namespace wishbone {
 
 /// A table for terminals: columns as wide as their widest cell, first column flush left, numbers flush right.
-class Table {
+class TextTable {
  public:
   /// `text_columns`: how many columns, counted from the left, hold text.
-  Table(std::vector<std::string> header, int text_columns);
+  TextTable(std::vector<std::string> header, int text_columns);
 
   void add_row(std::vector<std::string> cells);
   std::string text() const;
