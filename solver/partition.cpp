@@ -75,27 +75,29 @@ void PartitionedSystem::calc_speeds(const VectorX& d_rate, VectorX& v) const {
   }
 }
 
-/// LU of the dependent columns, for speeds or for displacements.
-void PartitionedSystem::factor_dependent(bool displacements) {
+/// The dependent columns of D, those of the speeds or those of the displacements.
+void PartitionedSystem::gather_dependent(Of what) {
   for (int j = 0; j < n_dependent_; ++j) D_J_.col(j) = D_.col(dependent_[j]);
-  if (displacements && !turning_.empty()) {
-    for (int j = 0; j < n_dependent_; ++j) {
-      d_rate_.setZero();
-      d_rate_[dependent_[j]] = 1;
-      calc_speeds(d_rate_, speeds_);
-      D_J_.col(j).noalias() = D_ * speeds_;
-    }
+  if (what == Of::speeds || turning_.empty()) return;
+  for (int j = 0; j < n_dependent_; ++j) {
+    d_rate_.setZero();
+    d_rate_[dependent_[j]] = 1;
+    calc_speeds(d_rate_, speeds_);
+    D_J_.col(j).noalias() = D_ * speeds_;
   }
+}
+
+void PartitionedSystem::factor_dependent(Of what) {
+  gather_dependent(what);
   lu_.compute(D_J_);
 }
 
 /// Smallest pivot of the dependent columns of D with unit rows.
-double PartitionedSystem::dependent_sine() const {
+double PartitionedSystem::dependent_sine(Of what) {
   if (n_dependent_ == 0) return 1;
-  MatrixX D_J(n_dependent_, n_dependent_);
-  for (int j = 0; j < n_dependent_; ++j) D_J.col(j) = D_.col(dependent_[j]);
-  D_J = D_.rowwise().norm().cwiseInverse().asDiagonal() * D_J;
-  const Eigen::ColPivHouseholderQR<MatrixX> qr(D_J);
+  gather_dependent(what);
+  D_J_ = D_.rowwise().norm().cwiseInverse().asDiagonal() * D_J_;
+  const Eigen::ColPivHouseholderQR<MatrixX> qr(D_J_);
   return std::abs(qr.matrixQR()(n_dependent_ - 1, n_dependent_ - 1));
 }
 
@@ -117,7 +119,7 @@ void PartitionedSystem::choose(const State& state) {
   std::sort(independent_.begin(), independent_.end());
   q_reference_ = state.q;
   d_.setZero();
-  sine_ = dependent_sine();
+  sine_ = dependent_sine(Of::speeds);
 }
 
 void PartitionedSystem::pack(const State& state, const Work& work, Eigen::Ref<VectorX> y) {
@@ -147,7 +149,7 @@ void PartitionedSystem::close_positions(State& state) {
       return;
     if (!factored || residual > kFast * last) {
       calc_closure_jacobian();
-      factor_dependent(true);
+      factor_dependent(Of::displacements);
       ++ws_.work.closure_factorizations;
     }
     factored = true;
@@ -166,7 +168,7 @@ void PartitionedSystem::close_velocities(State& state) {
   update_markers<double>(system_, ws_);
   update_closures<double>(system_, state.t, ws_);
   calc_closure_jacobian();
-  factor_dependent(false);
+  factor_dependent(Of::speeds);
   for (int i = 0; i < n_dependent_; ++i) residual_[i] = ws_.Phi_rate[ws_.closure.kept[i]];
   residual_ = lu_.solve(residual_);
   for (int j = 0; j < n_dependent_; ++j) state.v[dependent_[j]] = -residual_[j];
@@ -205,7 +207,7 @@ void PartitionedSystem::set_directions(const State& state) {
   };
   VectorX along(system_.nv), xi(system_.nv);
   calc_closure_jacobian();
-  factor_dependent(true);
+  factor_dependent(Of::displacements);
   directions_.v.setZero();
   for (int i = 0; i < n_independent_; ++i) {
     // (D T) d = 0; q' = N T d
@@ -220,7 +222,7 @@ void PartitionedSystem::set_directions(const State& state) {
   directions_.x.rightCols(system_.nx).setIdentity();
   // D dv_J = -dPhi' at fixed speeds
   tangents().calc_closure_rate(state, directions_, ws_, Phi_rate_);
-  factor_dependent(false);
+  factor_dependent(Of::speeds);
   VectorX kept(n_dependent_);
   for (int i = 0; i < n_independent_; ++i) {
     for (int j = 0; j < n_dependent_; ++j) kept[j] = Phi_rate_(ws_.closure.kept[j], i);
@@ -275,7 +277,8 @@ bool PartitionedSystem::project(double, double, Eigen::Ref<VectorX>) {
 bool PartitionedSystem::outlived() {
   for (const TreeBody* body : turning_)
     if (d_.segment<3>(body->v_start).norm() > kFarthestTurn) return true;
-  return dependent_sine() < kDegraded * sine_;
+  // far from the reference the displacements of a ball joint mix its speeds: their columns degrade on their own
+  return std::min(dependent_sine(Of::speeds), dependent_sine(Of::displacements)) < kDegraded * sine_;
 }
 
 std::string PartitionedSystem::name(Eigen::Index i) const {
