@@ -176,8 +176,7 @@ TEST(SpanningTree, HangsEveryBodyOnItsCarrierTheWayItsRoleSays) {
     std::vector<int> carrier(g.bodies.size(), -1);
     for (std::size_t j = 0; j < g.joints.size(); ++j) {
       if (tree.roles[j] == JointRole::closes) continue;
-      const int child =
-          tree.roles[j] == JointRole::carries_second ? g.joints[j].second : g.joints[j].first;
+      const int child = tree.roles[j] == JointRole::carries_second ? g.joints[j].second : g.joints[j].first;
       ASSERT_NE(child, kGround);
       EXPECT_FALSE(g.bodies[child].floats);
       carrier[child] = static_cast<int>(j);
@@ -206,10 +205,12 @@ TEST(SpanningTree, LeavesOneBodyOfEveryUntiedPartFloating) {
 }
 
 TEST(SpanningTree, NamesTheJointsThatArePinnedIntoALoop) {
-  const GraphJoint left = joint(kGround, 0, false), top = joint(0, 1, false), right = joint(kGround, 1, false);
+  const GraphJoint left = joint(kGround, 0, false), top = joint(0, 1, false),
+                   right = joint(kGround, 1, false);
   EXPECT_THAT(span({{}, {}}, {left, top}).impossible, IsEmpty());
   EXPECT_THAT(span({{}, {}}, {left, top, right}).impossible, ElementsAre(1));
-  EXPECT_THAT(span({{true, false}}, {left}).impossible, ElementsAre(0)) << "a floating body cannot be carried";
+  EXPECT_THAT(span({{true, false}}, {left}).impossible, ElementsAre(0))
+      << "a floating body cannot be carried";
 }
 
 }  // namespace
