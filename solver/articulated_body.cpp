@@ -1,5 +1,7 @@
 #include "solver/articulated_body.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <type_traits>
 
@@ -29,10 +31,16 @@ void with_joint_size(int nv, F&& f) {
   }
 }
 
+/// Least pivots of D = H^T P H, as a share of the inertia that would move with the joint if nothing cancelled. A mass on
+/// the axis of its joint has no lever, but for the rounding of its place, which counts squared; with more freedoms the
+/// lever cancels in the factorisation, and its rounding counts.
+constexpr double kLeastLever = 1e-12;
+constexpr double kLeastPivot = 1e-14;
+
 [[noreturn]] void fail_singular(const TreeBody& body, double pivot) {
   throw NumericsError({"body '" + body.name + "', joint '" + body.joint_name + "'",
                        "the inertia that moves with the joint is not positive definite",
-                       "pivot " + std::to_string(pivot),
+                       fmt::format("pivot {:g}", pivot),
                        "give the body, or what hangs on it, mass and inertia about the joint's axes"});
 }
 
@@ -80,6 +88,31 @@ void add_to_flexible_parent(const Matrix6& P_plus, const BodyMotion& child, cons
   f.M_zz.triangularView<Eigen::Lower>() += Psi.transpose() * f.P_Psi;
 }
 
+/// What the pivots are shares of, for each speed |w|^2 (tr J + tr m |p_MB|^2) + |v|^2 tr m with (w, v) its column of H.
+template <int nv>
+Eigen::Matrix<double, nv, 1> pivot_scales(const BodyMotion& s, const Matrix6& P) {
+  const double m = P.bottomRightCorner<3, 3>().trace();
+  const double J = P.topLeftCorner<3, 3>().trace() + m * s.p_MB.squaredNorm();
+  const auto H = s.H.leftCols<nv>();
+  return J * H.template topRows<3>().colwise().squaredNorm() +
+         m * H.template bottomRows<3>().colwise().squaredNorm();
+}
+
+/// @param rounding what rounding may leave in place of each pivot; of a pivot it goes on to the later ones by (L_ij/L_jj)^2
+/// @throws NumericsError naming the joint where a pivot is no more than that
+template <int nv>
+void require_pivots(const TreeBody& body, const Eigen::Matrix<double, nv, nv>& L,
+                    Eigen::Matrix<double, nv, 1> rounding) {
+  for (int i = 0; i < nv; ++i) {
+    for (int j = 0; j < i; ++j) {
+      const double share = L(i, j) / L(j, j);
+      rounding[i] += share * share * rounding[j];
+    }
+    const double pivot = L(i, i) * L(i, i);
+    if (pivot <= rounding[i]) fail_singular(body, pivot);
+  }
+}
+
 /// `stiffening`: factors on the hinge inertia of the joint's speeds, D <- W D W with W = diag(sqrt); null for none.
 template <int nv>
 void factor_joint(const TreeBody& body, const BodyMotion& s, const double* stiffening, ArticulatedBody& a,
@@ -89,19 +122,22 @@ void factor_joint(const TreeBody& body, const BodyMotion& s, const double* stiff
     const Eigen::Matrix<double, 6, nv> H = s.H.leftCols<nv>();
     const Eigen::Matrix<double, 6, nv> PH = a.P * H;
     Eigen::Matrix<double, nv, nv> D = H.transpose() * PH;
+    Eigen::Matrix<double, nv, 1> scales = pivot_scales<nv>(s, a.P);
     if (stiffening) {
-      const Eigen::Matrix<double, nv, 1> w =
-          Eigen::Map<const Eigen::Matrix<double, nv, 1>>(stiffening).cwiseSqrt();
+      const Eigen::Map<const Eigen::Matrix<double, nv, 1>> factors(stiffening);
+      const Eigen::Matrix<double, nv, 1> w = factors.cwiseSqrt();
       D = w.asDiagonal() * D * w.asDiagonal();
+      scales = scales.cwiseProduct(factors).eval();
     }
     if constexpr (nv == 1) {
-      if (!(D(0, 0) > 0)) fail_singular(body, D(0, 0));
+      if (!(D(0, 0) > kLeastLever * kLeastLever * scales[0])) fail_singular(body, D(0, 0));
       a.L(0, 0) = std::sqrt(D(0, 0));
       a.G.col(0) = PH / a.L(0, 0);
     } else {
       const Eigen::LLT<Eigen::Matrix<double, nv, nv>> llt(D);
-      if (llt.info() != Eigen::Success) fail_singular(body, D.diagonal().minCoeff());
+      if (llt.info() != Eigen::Success) fail_singular(body, 0);
       const Eigen::Matrix<double, nv, nv> L = llt.matrixL();
+      require_pivots<nv>(body, L, kLeastPivot * scales);
       a.L.template topLeftCorner<nv, nv>() = L;
       // G L^T = P H
       a.G.template leftCols<nv>() =
