@@ -26,8 +26,7 @@ VectorX richardson(F&& f, double h) {
     for (int j = 1; j <= level; ++j) {
       factor *= 4;
       next[j] = (factor * next[j - 1] - last[j - 1]) / (factor - 1);
-      const VectorX error =
-          (next[j] - next[j - 1]).cwiseAbs().cwiseMax((next[j] - last[j - 1]).cwiseAbs());
+      const VectorX error = (next[j] - next[j - 1]).cwiseAbs().cwiseMax((next[j] - last[j - 1]).cwiseAbs());
       for (Eigen::Index i = 0; i < best.size(); ++i)
         if (error[i] < least_error[i]) {
           least_error[i] = error[i];

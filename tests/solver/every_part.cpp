@@ -41,7 +41,8 @@ Pair add_pair(Assembly& a, const std::string& name) {
   pair.base = add_floating_body(a, name + " base", at_base);
   pair.other = add_floating_body(a, name + " other", {a.random.rotation(), p_W + a.random.vector(0.5)});
   pair.A = a.b.add_marker({pair.base}, p_W, R_WM);
-  pair.B = a.b.add_marker({pair.other}, p_W + R_WM * Vector3(0.3, -0.6, 0.5), turned_a_little(R_WM, a.random));
+  pair.B =
+      a.b.add_marker({pair.other}, p_W + R_WM * Vector3(0.3, -0.6, 0.5), turned_a_little(R_WM, a.random));
   return pair;
 }
 
@@ -59,8 +60,9 @@ std::vector<NamedPart> tree_joint_parts() {
     parts.push_back({std::string("tree joint ") + joint_kind(joint), [joint](Assembly& a, const auto& name) {
                        const Pose at_base{a.random.rotation(), a.random.vector(0.5)};
                        const int base = add_floating_body(a, name + " base", at_base);
-                       const int child = a.b.add_body(name + " child", a.random.uniform(1, 3), a.random.inertia(1),
-                                                      {a.random.rotation(), a.random.vector(1)});
+                       const int child =
+                           a.b.add_body(name + " child", a.random.uniform(1, 3), a.random.inertia(1),
+                                        {a.random.rotation(), a.random.vector(1)});
                        a.b.add_joint(name, {base}, child, a.random.vector(1), joint);
                      }});
   return parts;
@@ -158,36 +160,37 @@ void add_function_parts(std::vector<NamedPart>& parts) {
                      const Function spline(
                          Table(name, {-20, -6, 7, 20}, {1, -2, 3, 5}, Table::Interpolation::spline), s[8]);
                      const Function line(Table(name, {-50, 50}, {-2, 7}, Table::Interpolation::linear), s[9]);
-                     a.b.add_force(AppliedLoad(name, pair.A,
-                                               {{formula("{5}*{6}", s), spline, line},
-                                                {formula("{7}/(2 + {8})", s), formula("atan2({10}, 3)", s),
-                                                 formula("-{11}^3", s)}},
-                                               LoadAxes::kMarker));
+                     a.b.add_force(AppliedLoad(
+                         name, pair.A,
+                         {{formula("{5}*{6}", s), spline, line},
+                          {formula("{7}/(2 + {8})", s), formula("atan2({10}, 3)", s), formula("-{11}^3", s)}},
+                         LoadAxes::kMarker));
                    }});
 }
 
 /// A wheel that rolls over the road with some slip, nowhere near where its tire's law bends.
 NamedPart tire_part(const std::string& name, UaForm form, bool lag) {
-  return {name, [form, lag](Assembly& a, const std::string& element) {
-            UaTireParameters t;
-            t.radius = 0.315;
-            t.radial_stiffness = 2e5;
-            t.radial_damping_ratio = 0.02;
-            t.mass = 10;
-            t.slip_stiffness = 8e4;
-            t.cornering_stiffness = 7e4;
-            t.camber_stiffness = 8e3;
-            t.rolling_resistance = 0.003;
-            t.friction_max = 1.0;
-            t.friction_min = 0.8;
-            t.relaxation_x = 0.3;
-            t.relaxation_y = 0.5;
-            const Matrix3 R = rotation_about(Vector3::UnitZ(), 0.1) * rotation_about(Vector3::UnitX(), 0.05);
-            const int wheel = a.b.add_body(element + " wheel", 30, diagonal(1, 2, 1), {R, {11, 0.2, 0.265}});
-            a.b.set_velocity(wheel, {20, 1.5, 0.05}, {0.2, 68, 0.1});
-            a.b.add_force(Tire(element, a.b.add_marker({wheel}), t, Road(0.02, {{7.2, 12, 0.03}}), form, lag));
-            a.on_the_road.push_back(wheel);
-          }};
+  return {
+      name, [form, lag](Assembly& a, const std::string& element) {
+        UaTireParameters t;
+        t.radius = 0.315;
+        t.radial_stiffness = 2e5;
+        t.radial_damping_ratio = 0.02;
+        t.mass = 10;
+        t.slip_stiffness = 8e4;
+        t.cornering_stiffness = 7e4;
+        t.camber_stiffness = 8e3;
+        t.rolling_resistance = 0.003;
+        t.friction_max = 1.0;
+        t.friction_min = 0.8;
+        t.relaxation_x = 0.3;
+        t.relaxation_y = 0.5;
+        const Matrix3 R = rotation_about(Vector3::UnitZ(), 0.1) * rotation_about(Vector3::UnitX(), 0.05);
+        const int wheel = a.b.add_body(element + " wheel", 30, diagonal(1, 2, 1), {R, {11, 0.2, 0.265}});
+        a.b.set_velocity(wheel, {20, 1.5, 0.05}, {0.2, 68, 0.1});
+        a.b.add_force(Tire(element, a.b.add_marker({wheel}), t, Road(0.02, {{7.2, 12, 0.03}}), form, lag));
+        a.on_the_road.push_back(wheel);
+      }};
 }
 
 std::vector<NamedPart> force_parts() {

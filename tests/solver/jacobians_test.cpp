@@ -77,10 +77,12 @@ void expect_exact_ggl_jacobian(const NamedMechanism& around) {
   ASSERT_FALSE(jacobian.sparse());
   const Eigen::Index n = point.y.size();
   MatrixX J(n, n);
-  jacobian.calc(around.mechanism.state.t, point.c, point.y.data(), point.y_rate.data(), point.ws.memory, J.data());
+  jacobian.calc(around.mechanism.state.t, point.c, point.y.data(), point.y_rate.data(), point.ws.memory,
+                J.data());
   for (Eigen::Index k = 0; k < n; ++k)
-    expect_derivative(J.col(k), [&](double h) { return point.at(k, h); }, differences_of(around.mechanism),
-                      around.part + ", column " + std::to_string(k));
+    expect_derivative(
+        J.col(k), [&](double h) { return point.at(k, h); }, differences_of(around.mechanism),
+        around.part + ", column " + std::to_string(k));
 }
 
 TEST(GglJacobian, IsTheDerivativeOfTheResidualForEveryJointAndForce) {

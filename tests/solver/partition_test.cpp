@@ -29,13 +29,15 @@ Built chain_on_a_plane() {
   SystemBuilder b;
   b.gravity = {0, 0, -9.81};
   const Vector3 knee(1, 0, 0.5), tip(2, 0, 0);
-  const int upper = b.add_body("upper", 2, diagonal(0.05, 0.2, 0.22), {Matrix3::Identity(), {0.5, 0.05, 0.25}});
-  const int lower = b.add_body("lower", 1, diagonal(0.03, 0.1, 0.12), {Matrix3::Identity(), {1.5, -0.05, 0.3}});
+  const int upper =
+      b.add_body("upper", 2, diagonal(0.05, 0.2, 0.22), {Matrix3::Identity(), {0.5, 0.05, 0.25}});
+  const int lower =
+      b.add_body("lower", 1, diagonal(0.03, 0.1, 0.12), {Matrix3::Identity(), {1.5, -0.05, 0.3}});
   b.add_joint("hip", {}, upper, {0, 0, 0}, SphericalJoint{});
   b.add_joint("knee", {upper}, lower, knee, SphericalJoint{});
   b.add_closure("sole", b.add_marker({}), b.add_marker({lower}, tip), PointOnPlaneClosure{});
-  b.add_force(SpringDamper("tendon", b.add_marker({}, {0, 0, 2}), b.add_marker({lower}, knee + Vector3(0.4, 0.1, 0)),
-                           60, 2, 0.5));
+  b.add_force(SpringDamper("tendon", b.add_marker({}, {0, 0, 2}),
+                           b.add_marker({lower}, knee + Vector3(0.4, 0.1, 0)), 60, 2, 0.5));
   Built m = build(std::move(b));
   m.state.v = testing::Random(2).numbers(m.system.nv, 3);
   return m;
@@ -60,7 +62,8 @@ long expect_the_motion_of_index1(const Built& m, Method method, double bound) {
 TEST(Partition, OfAFourBarTurnsAsWithMultipliers) {
   Built m = four_bar(RevoluteClosure{}, 6);
   assembled(m);
-  for (const Method method : {Method::erk, Method::adams, Method::bdf}) expect_the_motion_of_index1(m, method, 1e-7);
+  for (const Method method : {Method::erk, Method::adams, Method::bdf})
+    expect_the_motion_of_index1(m, method, 1e-7);
 }
 
 TEST(Partition, OfBallJointsTumblesAsWithMultipliersThroughManyChoices) {

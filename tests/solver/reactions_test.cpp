@@ -63,7 +63,8 @@ Reactions least_reactions(const Built& m, const std::vector<Hinge>& hinges, cons
   const double l = spread(hinges);
   MatrixX E = MatrixX::Zero(6 * bodies, 5 * count);
   VectorX b(6 * bodies);
-  for (Eigen::Index i = 0; i < bodies; ++i) b.segment<6>(6 * i) = balance(m.system, ws.bodies[i], m.system.bodies[i]);
+  for (Eigen::Index i = 0; i < bodies; ++i)
+    b.segment<6>(6 * i) = balance(m.system, ws.bodies[i], m.system.bodies[i]);
   for (Eigen::Index j = 0; j < count; ++j) {
     const Eigen::Matrix<double, 6, 5> W = hinge_wrenches(hinges[j], l);
     const auto add = [&](int body, double sign) {
@@ -78,7 +79,8 @@ Reactions least_reactions(const Built& m, const std::vector<Hinge>& hinges, cons
   const VectorX z = E.completeOrthogonalDecomposition().solve(b);
   EXPECT_LT((E * z - b).norm(), 1e-10 * b.norm());
   Reactions reactions;
-  for (Eigen::Index j = 0; j < count; ++j) reactions.emplace_back(hinge_wrenches(hinges[j], l) * z.segment<5>(5 * j));
+  for (Eigen::Index j = 0; j < count; ++j)
+    reactions.emplace_back(hinge_wrenches(hinges[j], l) * z.segment<5>(5 * j));
   return reactions;
 }
 
@@ -112,7 +114,8 @@ Ring ring(const std::vector<Vector3>& points, const std::vector<Vector3>& axes, 
     if (j == cut)
       b.add_closure(h.name, b.add_marker({h.first}, h.p_W, R_WM(h.axis_W)),
                     b.add_marker({h.second}, h.p_W, R_WM(h.axis_W)), RevoluteClosure{});
-    if (j > cut) b.add_joint(h.name, {h.second}, h.first, h.p_W, reverse(joint), SystemBuilder::InitialMotion{}, true);
+    if (j > cut)
+      b.add_joint(h.name, {h.second}, h.first, h.p_W, reverse(joint), SystemBuilder::InitialMotion{}, true);
   }
   auto [system, state] = std::move(b).build();
   for (Hinge& h : hinges)
