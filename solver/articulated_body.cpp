@@ -1,6 +1,9 @@
 #include "solver/articulated_body.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
+#include <array>
 #include <cmath>
 
 #include "core/error.h"
@@ -8,10 +11,16 @@
 namespace wishbone {
 namespace {
 
+/// Least pivots of D = H^T P H, as a share of the inertia that would move with the joint if nothing cancelled. A mass on
+/// the axis of its joint has no lever, but for the rounding of its place, which counts squared; with more freedoms the
+/// lever cancels in the factorisation, and its rounding counts.
+constexpr double kLeastLever = 1e-12;
+constexpr double kLeastPivot = 1e-14;
+
 [[noreturn]] void fail_singular(const TreeBody& body, double pivot) {
   throw NumericsError({"body '" + body.name + "', joint '" + body.joint_name + "'",
                        "the inertia that moves with the joint is not positive definite",
-                       "pivot " + std::to_string(pivot),
+                       fmt::format("pivot {:g}", pivot),
                        "give the body, or what hangs on it, mass and inertia about the joint's axes"});
 }
 
@@ -61,12 +70,24 @@ void add_to_flexible_parent(const Matrix6& P_plus, const BodyMotion& child, cons
 
 /// P+ = P - G G^T, one speed h of the joint after the other: g = P h / sqrt(h^T P h), P <- P - g g^T. A joint with several
 /// speeds is a chain of joints with one speed each and nothing between them.
-void eliminate_joint(const TreeBody& body, Workspace& ws, Matrix6& P) {
-  for (int j = body.v_start; j < body.v_start + body.nv; ++j) {
+/// @throws NumericsError naming the joint where a pivot h^T P h is no more than what rounding may leave in its place
+void eliminate_joint(const TreeBody& body, const BodyMotion& s, Workspace& ws, Matrix6& P) {
+  const double least = body.nv == 1 ? kLeastLever * kLeastLever : kLeastPivot;
+  const double m = least * P.bottomRightCorner<3, 3>().trace();
+  const double J = least * P.topLeftCorner<3, 3>().trace() + m * s.p_MB.squaredNorm();
+  std::array<double, 6> rounding;
+  for (int i = 0; i < body.nv; ++i) {
+    const int j = body.v_start + i;
     const Vector6& h = ws.H[j];
+    // of |w|^2 (tr J + tr m |p_MB|^2) + |v|^2 tr m, and what the rounding of earlier pivots adds, by (L_ik/L_kk)^2
+    rounding[i] = J * angular(h).squaredNorm() + m * linear(h).squaredNorm();
+    for (int k = 0; k < i; ++k) {
+      const double share = h.dot(ws.G[body.v_start + k]) / ws.root[body.v_start + k];
+      rounding[i] += share * share * rounding[k];
+    }
     const Vector6 Ph = P * h;
     double pivot = h.dot(Ph);
-    if (!(pivot > 0)) fail_singular(body, pivot);
+    if (!(pivot > rounding[i])) fail_singular(body, pivot);
     if (ws.stiffening.size() > 0) pivot *= ws.stiffening[j];
     ws.root[j] = std::sqrt(pivot);
     Vector6& g = ws.G[j];
@@ -141,7 +162,7 @@ void factor_inertia(const System& system, Workspace& ws) {
     const BodyMotion& s = ws.bodies[i];
     Matrix6& P = ws.articulated[i].P;
     if (body.flexible >= 0) condense_modes(system.flexible[body.flexible], P, ws.condensed[body.flexible]);
-    eliminate_joint(body, ws, P);
+    eliminate_joint(body, s, ws, P);
     if (body.parent < 0) continue;
     add_shifted_inertia(P, s.p_PB, ws.articulated[body.parent].P);
     if (body.parent_node >= 0) {

@@ -153,38 +153,41 @@ bool close_trial(const System& system, State& state, Workspace& ws) {
   }
 }
 
-/// Moves along the closed poses to the one nearest to q0 in the metric of kinetic energy: the displacement from q0 is made
-/// orthogonal to the motions that the closures leave.
+/// What the closures leave of the displacement from q0 to a closed pose, in the metric of kinetic energy: nothing at the
+/// nearest one. Overwrites the speeds.
+VectorX tangential_displacement(const System& system, const VectorX& q0, State& pose, Workspace& ws) {
+  // taken as speeds, D d = 0; driven rows at rest
+  pose.v.setZero();
+  update_closed_kinematics(system, pose, ws);
+  const VectorX drift = ws.Phi_rate;
+  calc_displacement(system, q0, pose.q, pose.v);
+  update_closed_kinematics(system, pose, ws);
+  factor(system, ws);
+  calc_projection(system, ws.Phi_rate - drift, ws);
+  return pose.v + ws.displacement;
+}
+
+/// Moves along the closed poses to the one nearest to q0 in the metric of kinetic energy, down the gradient of the distance,
+/// which is the tangential displacement g. How far is told by its change over the step before [Barzilai & Borwein 1988], and
+/// by g having to shrink: where the closed poses curve more than q0 is away from them, a whole step leads off.
 void approach(const System& system, const VectorX& q0, State& state, Workspace& ws) {
-  constexpr int kMaxSteps = 30;
-  constexpr double kNear = 1e-10;
+  constexpr int kMaxTrials = 100;
+  constexpr double kNear = 1e-10, kLeastStep = 1e-6;
   State probe = state;
-  VectorX nearest = state.q;
-  double last = std::numeric_limits<double>::infinity();
-  for (int step = 0; step < kMaxSteps; ++step) {
-    // what the closures leave of the displacement taken as speeds, D d = 0; driven rows at rest
+  VectorX g = tangential_displacement(system, q0, probe, ws);
+  double step = 1;
+  for (int trial = 0; trial < kMaxTrials && step > kLeastStep && g.cwiseAbs().maxCoeff() > kNear; ++trial) {
     probe.q = state.q;
-    probe.v.setZero();
-    update_closed_kinematics(system, probe, ws);
-    const VectorX drift = ws.Phi_rate;
-    calc_displacement(system, q0, state.q, probe.v);
-    const VectorX d = probe.v;
-    update_closed_kinematics(system, probe, ws);
-    factor(system, ws);
-    calc_projection(system, ws.Phi_rate - drift, ws);
-    const VectorX tangential = d + ws.displacement;
-    const double size = tangential.cwiseAbs().maxCoeff();
-    if (!(size < last)) {  // no nearer: back to the pose before
-      state.q = nearest;
-      return;
+    retract(system, -step * g, probe.q);
+    const bool closed = close_trial(system, probe, ws);
+    const VectorX next = closed ? tangential_displacement(system, q0, probe, ws) : g;
+    if (!(next.norm() < g.norm())) {
+      step /= 4;
+      continue;
     }
-    if (!(size > kNear)) return;
-    last = size;
-    nearest = state.q;
-    probe.q = state.q;
-    retract(system, -tangential, probe.q);
-    if (!close_trial(system, probe, ws)) return;
     state.q = probe.q;
+    step *= g.squaredNorm() / g.dot(g - next);
+    g = next;
   }
 }
 
@@ -193,8 +196,8 @@ std::vector<ClosureGap> closure_gaps(const System& system, const Workspace& ws) 
   for (const Closure& closure : system.closures) {
     ClosureGap gap{closure.name};
     for (int i = 0; i < closure.rows; ++i) {
-      double& largest = row_is_angle(closure.joint, i) ? gap.angle : gap.length;
-      largest = std::max(largest, std::abs(ws.Phi[closure.row_start + i]));
+      double& open = row_is_angle(closure.joint, i) ? gap.angle : gap.length;
+      open = std::hypot(open, ws.Phi[closure.row_start + i]);
     }
     gaps.push_back(gap);
   }

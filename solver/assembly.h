@@ -7,7 +7,7 @@
 
 namespace wishbone {
 
-/// How far a closure is open: the largest of its rows in each unit.
+/// How far a closure is open: the norm of its rows in each unit.
 struct ClosureGap {
   std::string name;
   double length = 0;  ///< [m]

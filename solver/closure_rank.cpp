@@ -118,6 +118,7 @@ MatrixX closure_self_stresses(const System& system, Workspace& ws) {
   const auto n = static_cast<Eigen::Index>(kept.size());
   const std::vector<int> redundant = redundant_rows(system, kept);
   if (redundant.empty()) return MatrixX(system.n_rows, 0);
+  // the tree alone holds the loops still: whatever a row pulls, the joints around it hold
   if (kept.empty()) return MatrixX::Identity(system.n_rows, system.n_rows);
 
   const VectorX lambda = ws.lambda;

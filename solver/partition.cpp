@@ -75,27 +75,29 @@ void PartitionedSystem::calc_speeds(const VectorX& d_rate, VectorX& v) const {
   }
 }
 
-/// LU of the dependent columns, for speeds or for displacements.
-void PartitionedSystem::factor_dependent(bool displacements) {
+/// The dependent columns of D, those of the speeds or those of the displacements.
+void PartitionedSystem::gather_dependent(Of what) {
   for (int j = 0; j < n_dependent_; ++j) D_J_.col(j) = D_.col(dependent_[j]);
-  if (displacements && !turning_.empty()) {
-    for (int j = 0; j < n_dependent_; ++j) {
-      d_rate_.setZero();
-      d_rate_[dependent_[j]] = 1;
-      calc_speeds(d_rate_, speeds_);
-      D_J_.col(j).noalias() = D_ * speeds_;
-    }
+  if (what == Of::speeds || turning_.empty()) return;
+  for (int j = 0; j < n_dependent_; ++j) {
+    d_rate_.setZero();
+    d_rate_[dependent_[j]] = 1;
+    calc_speeds(d_rate_, speeds_);
+    D_J_.col(j).noalias() = D_ * speeds_;
   }
+}
+
+void PartitionedSystem::factor_dependent(Of what) {
+  gather_dependent(what);
   lu_.compute(D_J_);
 }
 
 /// Smallest pivot of the dependent columns of D with unit rows.
-double PartitionedSystem::dependent_sine() const {
+double PartitionedSystem::dependent_sine(Of what) {
   if (n_dependent_ == 0) return 1;
-  MatrixX D_J(n_dependent_, n_dependent_);
-  for (int j = 0; j < n_dependent_; ++j) D_J.col(j) = D_.col(dependent_[j]);
-  D_J = D_.rowwise().norm().cwiseInverse().asDiagonal() * D_J;
-  const Eigen::ColPivHouseholderQR<MatrixX> qr(D_J);
+  gather_dependent(what);
+  D_J_ = D_.rowwise().norm().cwiseInverse().asDiagonal() * D_J_;
+  const Eigen::ColPivHouseholderQR<MatrixX> qr(D_J_);
   return std::abs(qr.matrixQR()(n_dependent_ - 1, n_dependent_ - 1));
 }
 
@@ -116,7 +118,7 @@ void PartitionedSystem::choose(const State& state) {
   std::sort(independent_.begin(), independent_.end());
   q_reference_ = state.q;
   d_.setZero();
-  sine_ = dependent_sine();
+  sine_ = dependent_sine(Of::speeds);
 }
 
 void PartitionedSystem::pack(const State& state, const Work& work, Eigen::Ref<VectorX> y) {
@@ -146,7 +148,7 @@ void PartitionedSystem::close_positions(State& state) {
       return;
     if (!factored || residual > kFast * last) {
       calc_closure_jacobian();
-      factor_dependent(true);
+      factor_dependent(Of::displacements);
       ++ws_.work.closure_factorizations;
     }
     factored = true;
@@ -165,7 +167,7 @@ void PartitionedSystem::close_velocities(State& state) {
   update_markers<double>(system_, ws_);
   update_closures<double>(system_, state.t, ws_);
   calc_closure_jacobian();
-  factor_dependent(false);
+  factor_dependent(Of::speeds);
   for (int i = 0; i < n_dependent_; ++i) residual_[i] = ws_.Phi_rate[ws_.closure.kept[i]];
   residual_ = lu_.solve(residual_);
   for (int j = 0; j < n_dependent_; ++j) state.v[dependent_[j]] = -residual_[j];
@@ -197,47 +199,47 @@ void PartitionedSystem::calc_rate(double t, const Eigen::Ref<const VectorX>& y, 
 
 /// Directions of (q, v, x) along every independent displacement, every independent speed and every state x.
 void PartitionedSystem::set_directions(const State& state) {
-  // the dependent entries that undo a residual of the kept rows
-  const auto depend = [&](VectorX& along, const VectorX& residual) {
-    residual_ = lu_.solve(residual);
+  // the dependent entries that undo the residual of the kept rows
+  const auto depend = [this](VectorX& along) {
+    residual_ = lu_.solve(residual_);
     for (int j = 0; j < n_dependent_; ++j) along[dependent_[j]] = -residual_[j];
   };
-  VectorX along(system_.nv), xi(system_.nv);
   calc_closure_jacobian();
-  factor_dependent(true);
+  factor_dependent(Of::displacements);
   directions_.v.setZero();
   for (int i = 0; i < n_independent_; ++i) {
     // (D T) d = 0; q' = N T d
-    along.setZero();
-    along[independent_[i]] = 1;
-    calc_speeds(along, xi);
-    depend(along, D_ * xi);
-    d_directions_.col(i) = along;
-    calc_speeds(along, xi);
-    calc_q_rate<double>(system_, state.q, xi, directions_.q.col(i).data());
+    d_rate_.setZero();
+    d_rate_[independent_[i]] = 1;
+    calc_speeds(d_rate_, speeds_);
+    residual_.noalias() = D_ * speeds_;
+    depend(d_rate_);
+    d_directions_.col(i) = d_rate_;
+    calc_speeds(d_rate_, speeds_);
+    calc_q_rate<double>(system_, state.q, speeds_, directions_.q.col(i).data());
   }
   directions_.x.rightCols(system_.nx).setIdentity();
   // D dv_J = -dPhi' at fixed speeds
   tangents().calc_closure_rate(state, directions_, ws_, Phi_rate_);
-  factor_dependent(false);
-  VectorX kept(n_dependent_);
+  factor_dependent(Of::speeds);
   for (int i = 0; i < n_independent_; ++i) {
-    for (int j = 0; j < n_dependent_; ++j) kept[j] = Phi_rate_(ws_.closure.kept[j], i);
-    along.setZero();
-    depend(along, kept);
-    directions_.v.col(i) = along;
-    along.setZero();
-    along[independent_[i]] = 1;
-    depend(along, D_ * along);
-    directions_.v.col(n_independent_ + i) = along;
+    for (int j = 0; j < n_dependent_; ++j) residual_[j] = Phi_rate_(ws_.closure.kept[j], i);
+    speeds_.setZero();
+    depend(speeds_);
+    directions_.v.col(i) = speeds_;
+    speeds_.setZero();
+    speeds_[independent_[i]] = 1;
+    residual_ = D_.col(independent_[i]);
+    depend(speeds_);
+    directions_.v.col(n_independent_ + i) = speeds_;
   }
 }
 
 /// Rows of J for d' = T^-1(d) v.
 void PartitionedSystem::differentiate_displacement_rate(const State& state, Eigen::Ref<MatrixX> J) {
-  VectorX rate(system_.nv);
   for (Eigen::Index k = 0; k < directions_.count(); ++k) {
-    calc_displacement_rate(directions_.v.col(k), rate);
+    speeds_ = directions_.v.col(k);
+    calc_displacement_rate(speeds_, d_rate_);
     if (k < n_independent_)
       for (const TreeBody* body : turning_) {
         Vector3T<Dual> phi;
@@ -247,9 +249,9 @@ void PartitionedSystem::differentiate_displacement_rate(const State& state, Eige
         }
         const Vector3T<Dual> d_rate =
             rotation_vector_rate_matrix<Dual>(phi) * state.v.segment<3>(body->v_start);
-        for (int a = 0; a < 3; ++a) rate[body->v_start + a] += d_rate[a].d[0];
+        for (int a = 0; a < 3; ++a) d_rate_[body->v_start + a] += d_rate[a].d[0];
       }
-    for (int i = 0; i < n_independent_; ++i) J(i, k) = rate[independent_[i]];
+    for (int i = 0; i < n_independent_; ++i) J(i, k) = d_rate_[independent_[i]];
   }
 }
 
@@ -274,7 +276,8 @@ bool PartitionedSystem::project(double, double, Eigen::Ref<VectorX>) {
 bool PartitionedSystem::outlived() {
   for (const TreeBody* body : turning_)
     if (d_.segment<3>(body->v_start).norm() > kFarthestTurn) return true;
-  return dependent_sine() < kDegraded * sine_;
+  // far from the reference the displacements of a ball joint mix its speeds: their columns degrade on their own
+  return std::min(dependent_sine(Of::speeds), dependent_sine(Of::displacements)) < kDegraded * sine_;
 }
 
 std::string PartitionedSystem::name(Eigen::Index i) const {

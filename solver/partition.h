@@ -33,8 +33,10 @@ class PartitionedSystem final : public FirstOrderSystem {
   void close_positions(State& state);
   void close_velocities(State& state);
   void calc_closure_jacobian();
-  void factor_dependent(bool displacements);
-  double dependent_sine() const;
+  enum class Of { speeds, displacements };
+  void gather_dependent(Of what);
+  void factor_dependent(Of what);
+  double dependent_sine(Of what);
   void calc_displacement_rate(const VectorX& v, VectorX& d_rate) const;
   void calc_speeds(const VectorX& d_rate, VectorX& v) const;
   void set_directions(const State& state);
@@ -46,7 +48,7 @@ class PartitionedSystem final : public FirstOrderSystem {
   VectorX d_;        // all displacements of the last evaluation
   double sine_ = 1;  // of the dependent columns when they were chosen
   MatrixX D_;        // kept rows x nv, of speeds
-  MatrixX D_J_;      // its dependent columns, times the tangent of the displacements where asked for
+  MatrixX D_J_;      // its dependent columns, or those of D times the tangent of the displacements
   Eigen::PartialPivLU<MatrixX> lu_;
   VectorX row_force_, mu_, residual_, d_rate_, speeds_;
   std::vector<const TreeBody*> turning_;  // bodies on joints with quaternions

@@ -36,6 +36,8 @@ Tangents::Tangents(const System& system)
       lambda_(system.n_rows),
       r_(system.nv),
       q_rate_(system.nq),
+      v_rate_found_(VectorX::Zero(system.nv)),
+      lambda_found_(VectorX::Zero(system.n_rows)),
       closure_rhs_(VectorX::Zero(system.n_rows)),
       lambda_rate_(VectorX::Zero(system.n_rows)),
       solved_(VectorX::Zero(system.nv)) {}
@@ -68,21 +70,22 @@ void Tangents::solve(Eigen::Index k, Workspace& ws, Eigen::Ref<VectorX> v_rate) 
 void Tangents::calc(const State& state, const Directions& directions, Workspace& ws,
                     MotionDerivatives& derivatives) {
   ++ws.work.tangents;
-  const VectorX lambda = ws.lambda, v_rate = ws.v_rate;
+  v_rate_found_ = ws.v_rate;
+  lambda_found_ = ws.lambda;
   ev_.memory = ws.memory;
   for (Eigen::Index first = 0; first < directions.count(); first += Dual::kDirections) {
     const Eigen::Index count = std::min<Eigen::Index>(Dual::kDirections, directions.count() - first);
     seed(state, directions, first, count);
-    set_values(v_rate, v_rate_);
-    set_values(lambda, lambda_);
+    set_values(v_rate_found_, v_rate_);
+    set_values(lambda_found_, lambda_);
     update_state<Dual>(system_, state.t, q_, v_, x_, ev_);
     calc_motion_residual<Dual>(system_, v_rate_, lambda_, ev_, r_.data());
     update_closure_accelerations<Dual>(system_, state.t, ev_);
     calc_q_rate<Dual>(system_, q_, v_, q_rate_.data());
     for (Eigen::Index k = 0; k < count; ++k) {
       solve(k, ws, derivatives.v_rate.col(first + k));
-      for (Eigen::Index i = 0; i < v_rate.size(); ++i) v_rate_[i].d[k] = derivatives.v_rate(i, first + k);
-      for (Eigen::Index i = 0; i < lambda.size(); ++i) lambda_[i].d[k] = lambda_rate_[i];
+      for (Eigen::Index i = 0; i < v_rate_.size(); ++i) v_rate_[i].d[k] = derivatives.v_rate(i, first + k);
+      for (Eigen::Index i = 0; i < lambda_.size(); ++i) lambda_[i].d[k] = lambda_rate_[i];
       for (Eigen::Index i = 0; i < q_rate_.size(); ++i) derivatives.q_rate(i, first + k) = q_rate_[i].d[k];
       for (Eigen::Index i = 0; i < ev_.x_rate.size(); ++i)
         derivatives.x_rate(i, first + k) = ev_.x_rate[i].d[k];
@@ -96,8 +99,8 @@ void Tangents::calc(const State& state, const Directions& directions, Workspace&
     for (Eigen::Index k = 0; k < count; ++k)
       derivatives.work_rate.col(first + k) << work.loss.d[k], work.input.d[k];
   }
-  ws.lambda = lambda;
-  ws.v_rate = v_rate;
+  ws.v_rate = v_rate_found_;
+  ws.lambda = lambda_found_;
 }
 
 void Tangents::calc_closure_rate(const State& state, const Directions& directions, const Workspace& ws,

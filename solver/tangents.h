@@ -52,6 +52,7 @@ class Tangents {
   const System& system_;
   Evaluation<Dual> ev_;
   VectorXT<Dual> q_, v_, x_, v_rate_, lambda_, r_, q_rate_;
+  VectorX v_rate_found_, lambda_found_;  // of the last evaluation
   VectorX closure_rhs_, lambda_rate_, solved_;
 };
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/dual.h"
-#include "joints/tree_joint.h"
+#include "joints/every_joint.h"
 
 namespace wishbone::testing {
 
@@ -51,28 +51,10 @@ inline Vector3 unskew(const Matrix3& S) {
   return {S(2, 1), S(0, 2), S(1, 0)};
 }
 
-inline Motion some_motion() {
-  return Motion("drive", 0.3, {{0, 2, 1.5}, {0.5, 1, -0.4}});
-}
-
-/// One of each tree joint with oblique axes, and each of them reversed.
+/// Every tree joint with random axes.
 inline std::vector<TreeJoint> all_tree_joints(Random& random) {
   const Vector3 axis = random.direction();
-  const auto [first, second] = perpendiculars(random.direction());
-  std::vector<TreeJoint> joints{FixedJoint{},
-                                RevoluteJoint(axis),
-                                PrismaticJoint(axis),
-                                CylindricalJoint(axis),
-                                ScrewJoint(axis, 0.3),
-                                UniversalJoint(first, second),
-                                ConstantVelocityJoint(axis),
-                                PlanarJoint(axis),
-                                SphericalJoint{},
-                                FreeJoint{},
-                                PrescribedJoint{PrescribedJoint::Kind::revolute, axis, some_motion()},
-                                PrescribedJoint{PrescribedJoint::Kind::prismatic, axis, some_motion()}};
-  for (std::size_t i = 0, n = joints.size(); i < n; ++i) joints.push_back(reverse(joints[i]));
-  return joints;
+  return every_tree_joint(axis, random.direction());
 }
 
 /// Coordinates anywhere that the joint can reach, up to `size` rad or m from neutral in each direction.

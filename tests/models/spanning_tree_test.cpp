@@ -1,159 +1,216 @@
-// The spanning tree: which joints are cut decides what a run costs, never what the mechanism does.
+// The choice of tree joints against all choices that there are, on small random graphs.
 #include "models/spanning_tree.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <map>
-
-#include "models/compile.h"
-#include "models/joint_choices.h"
-#include "models/plan.h"
-#include "models/scene_loader.h"
-#include "text_files.h"
+#include <functional>
+#include <numeric>
+#include <random>
+#include <tuple>
 
 namespace wishbone {
 namespace {
 
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
-/// A spatial four-bar: a crank turns about z, a coupler hangs on ball joints, a rocker swings about x. The coupler may spin
-/// about itself; friction damps the crank. Nothing is redundant, so that reactions are unique.
-constexpr const char* kSpatialFourBar = R"(
-wishbone: 1
-bodies:
-  crank: {mass: 1, inertia: [0.02, 0.03, 0.04], position: [0.05, 0.1, 0]}
-  coupler: {mass: 2, inertia: [0.2, 0.1, 0.2], position: [0.3, 0.3, 0.2], orientation: {axis: [1, 2, 3], angle: 0.4}}
-  rocker: {mass: 1.5, inertia: [0.1, 0.05, 0.1], position: [0.6, 0.3, 0.2]}
-joints:
-  motor: {type: revolute, bodies: [ground, crank], at: [0, 0, 0], axis: [0, 0, 1], friction: {coulomb: 0.1, smoothing: 0.5}, MOTOR}
-  near: {type: spherical, bodies: [crank, coupler], at: [0.1, 0.2, 0], NEAR}
-  far: {type: spherical, bodies: [rocker, coupler], at: [0.6, 0.4, 0.4], FAR}
-  hinge: {type: revolute, bodies: [ground, rocker], at: [0.6, 0.2, 0], axis: [1, 0, 0], HINGE}
-loads:
-  push: {body: crank, moment: [0, 0, 2]}
-analysis: {duration: 1 s}
-)";
+constexpr int kGround = -1;
 
-std::string replaced(std::string text, const std::map<std::string, std::string>& with) {
-  for (const auto& [word, by] : with)
-    for (auto at = text.find(", " + word + "}"); at != std::string::npos; at = text.find(", " + word + "}"))
-      text.replace(at, word.size() + 3, by.empty() ? "}" : ", " + by + "}");
-  return text;
-}
+struct Graph {
+  std::vector<GraphBody> bodies;
+  std::vector<GraphJoint> joints;
+};
 
-/// The scene with one joint pinned as cut, or with none.
-Scene scene_cut_at(const std::string& joint) {
-  const TextFiles files;
-  std::map<std::string, std::string> with{{"MOTOR", ""}, {"NEAR", ""}, {"FAR", ""}, {"HINGE", ""}};
-  if (!joint.empty()) with[joint] = "cut: true";
-  return load_scene(files.write("scene.yaml", replaced(kSpatialFourBar, with)));
-}
-
-using Signals = std::map<std::string, std::vector<std::vector<double>>>;  // by path, a row for each output
-
-Signals run(const Scene& scene) {
-  const CompiledScene compiled = compile(scene);
-  TransientOptions options;
-  options.duration = 1;
-  options.interval = 0.1;
-  options.integrator.rtol = options.integrator.atol = 1e-11;
-  Workspace ws(compiled.system);
-  Observer observer(compiled.system, compiled.observer);
-  Signals signals;
-  const TransientSummary summary = run_transient(
-      compiled.system, compiled.initial, options, ws, [&](const State& state, const Work& work) {
-        const double* row = observer.sample(state, work, ws).data();
-        for (const Signal& signal : observer.signals()) {
-          signals[signal.path].emplace_back(row, row + signal.size());
-          row += signal.size();
-        }
-      });
-  EXPECT_EQ(summary.status, TransientSummary::Status::complete) << summary.message;
-  return signals;
-}
-
-/// What does not depend on coordinates: motion of bodies, reactions, forces and energies.
-bool is_physical(const std::string& path) {
-  for (const char* part : {"/bodies/", "/force", "/moment", "/energy/"})
-    if (path.find(part) != std::string::npos) return true;
-  return false;
-}
-
-double largest(const std::vector<std::vector<double>>& rows) {
-  double value = 0;
-  for (const auto& row : rows)
-    for (const double x : row) value = std::max(value, std::abs(x));
-  return value;
-}
-
-class Cuts : public testing::TestWithParam<const char*> {};
-
-TEST_P(Cuts, ChangeNeitherMotionNorReactions) {
-  const Signals reference = run(scene_cut_at(""));
-  const Signals other = run(scene_cut_at(GetParam()));
-  ASSERT_GT(largest(reference.at("/joints/far/force")), 1.0) << "something is to be compared [N]";
-  ASSERT_GT(largest(reference.at("/bodies/rocker/angular_velocity")), 0.1) << "it moves [rad/s]";
-  int compared = 0;
-  for (const auto& [path, rows] : reference) {
-    if (!is_physical(path)) continue;
-    ASSERT_TRUE(other.contains(path)) << path;
-    const double scale = std::max(1.0, largest(rows));
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      for (std::size_t k = 0; k < rows[i].size(); ++k)
-        EXPECT_NEAR(rows[i][k], other.at(path)[i][k], 1e-7 * scale) << path << " row " << i;
-    ++compared;
+/// Up to five bodies and eight joints between them and the ground.
+Graph random_graph(std::mt19937& engine) {
+  const auto below = [&](int n) { return std::uniform_int_distribution<>(0, n - 1)(engine); };
+  Graph g;
+  g.bodies.resize(2 + below(4));
+  const int bodies = static_cast<int>(g.bodies.size());
+  for (GraphBody& body : g.bodies) body = {below(6) == 0, below(4) == 0};
+  for (int i = 1 + below(8); i > 0; --i) {
+    const int first = below(bodies + 1) - 1, second = below(bodies + 1) - 1;
+    if (first != second) g.joints.push_back({first, second, 1 + below(6), std::nullopt, below(3) == 0});
   }
-  EXPECT_GE(compared, 3 * 4 + 4 * 2) << "bodies and joints";
-}
-INSTANTIATE_TEST_SUITE_P(, Cuts, testing::Values("MOTOR", "NEAR", "FAR", "HINGE"),
-                         [](const auto& p) { return std::string(p.param); });
-
-TEST(CutJoints, CostAsManyRowsAsTheirJoints) {
-  const auto rows = [](const char* joint) {
-    const Scene scene = scene_cut_at(joint);
-    return make_plan(scene, compile(scene)).closure_rows;
-  };
-  EXPECT_EQ(rows(""), 3) << "a ball joint is cheapest";
-  EXPECT_EQ(rows("FAR"), 3);
-  EXPECT_EQ(rows("MOTOR"), 5);
-  EXPECT_EQ(rows("HINGE"), 5);
+  return g;
 }
 
-TEST(CutJoints, AreExplainedInThePlan) {
-  const auto choice = [](const char* pin, std::size_t joint) {
-    const Scene scene = scene_cut_at(pin);
-    return make_plan(scene, compile(scene)).joints.at(joint);
-  };
-  const JointChoice far = choice("", 2);
-  EXPECT_TRUE(far.cut);
-  EXPECT_FALSE(far.pinned);
-  EXPECT_EQ(far.saved, 2);
-  EXPECT_THAT(far.loop, ElementsAre("motor", "near", "hinge"));
-  const JointChoice motor = choice("MOTOR", 0);
-  EXPECT_TRUE(motor.cut && motor.pinned);
-  EXPECT_EQ(motor.saved, -2);
-  EXPECT_THAT(motor.reason, HasSubstr("pinned"));
-  EXPECT_FALSE(choice("MOTOR", 1).cut);
-}
+/// Sets of bodies that are tied together, the ground and floating bodies being one root.
+class Ties {
+ public:
+  explicit Ties(const Graph& g) : set_(g.bodies.size() + 1) {
+    std::iota(set_.begin(), set_.end(), 0);
+    for (std::size_t b = 0; b < g.bodies.size(); ++b)
+      if (g.bodies[b].floats) set_[b + 1] = 0;
+  }
+  int of(int body) const { return set_[body + 1]; }
+  /// Whether the two were apart.
+  bool tie(int a, int b) {
+    const int one = of(a), other = of(b);
+    for (int& s : set_)
+      if (s == other) s = one;
+    return one != other;
+  }
 
-TEST(CutJoints, MobilityIsThatOfTheMechanism) {
-  // the crank, and the spin of the coupler about its ball joints
-  for (const char* joint : {"", "MOTOR", "NEAR", "FAR", "HINGE"}) {
-    const Scene scene = scene_cut_at(joint);
-    const Plan plan = make_plan(scene, compile(scene));
-    EXPECT_EQ(plan.mobility, 2) << joint;
-    EXPECT_EQ(plan.rank, plan.closure_rows) << joint;
+ private:
+  std::vector<int> set_;
+};
+
+/// Calls f with every set of joints, as a bit each, that could be a spanning tree: without a loop, tying together whatever
+/// joints can tie, and with the pinned ones where they are pinned to.
+void for_each_tree(const Graph& g, const std::function<void(unsigned)>& f) {
+  Ties most(g);
+  int needed = 0;
+  for (const GraphJoint& joint : g.joints)
+    if (joint.cut != true && most.tie(joint.first, joint.second)) ++needed;
+  for (unsigned tree = 0; tree < (1u << g.joints.size()); ++tree) {
+    Ties ties(g);
+    int count = 0;
+    bool allowed = true;
+    for (std::size_t j = 0; j < g.joints.size(); ++j) {
+      const GraphJoint& joint = g.joints[j];
+      const bool carries = (tree >> j & 1) != 0;
+      if (joint.cut && *joint.cut == carries) allowed = false;
+      if (!carries) continue;
+      ++count;
+      allowed = allowed && ties.tie(joint.first, joint.second);
+    }
+    if (allowed && count == needed) f(tree);
   }
 }
 
-TEST(SpanningTree, CutsTheCheapestJointOfALoop) {
-  // a triangle on the ground: joints of 5, 3 and 5 rows
-  const SpanningTree tree =
-      span({{}, {}}, {{-1, 0, 5, {}, false}, {0, 1, 3, {}, false}, {1, -1, 5, {}, false}});
-  EXPECT_THAT(tree.roles,
-              ElementsAre(JointRole::carries_second, JointRole::closes, JointRole::carries_first));
+unsigned chosen(const SpanningTree& tree) {
+  unsigned bits = 0;
+  for (std::size_t j = 0; j < tree.roles.size(); ++j)
+    if (tree.roles[j] != JointRole::closes) bits |= 1u << j;
+  return bits;
+}
+
+/// Closure rows of the joints that a tree cuts, and how many of these have initial values.
+std::pair<int, int> cost(const Graph& g, unsigned tree) {
+  std::pair<int, int> sum{0, 0};
+  for (std::size_t j = 0; j < g.joints.size(); ++j)
+    if ((tree >> j & 1) == 0) {
+      sum.first += g.joints[j].closure_rows;
+      sum.second += g.joints[j].preferred ? 1 : 0;
+    }
+  return sum;
+}
+
+/// Joints between a body and its root; `roots` are the bodies that nothing carries.
+std::vector<int> depths(const Graph& g, unsigned tree, const std::vector<int>& roots) {
+  std::vector<int> depth(g.bodies.size(), -1);
+  for (const int root : roots) depth[root] = 0;
+  const auto of = [&](int body) { return body == kGround ? 0 : depth[body]; };
+  for (std::size_t round = 0; round < g.bodies.size(); ++round)
+    for (std::size_t j = 0; j < g.joints.size(); ++j) {
+      if ((tree >> j & 1) == 0) continue;
+      const auto [a, b] = std::pair(g.joints[j].first, g.joints[j].second);
+      if (of(a) >= 0 && of(b) < 0) depth[b] = of(a) + 1;
+      if (of(b) >= 0 && of(a) < 0) depth[a] = of(b) + 1;
+    }
+  return depth;
+}
+
+std::vector<int> floating(const SpanningTree& tree) {
+  std::vector<int> roots;
+  for (std::size_t b = 0; b < tree.carrier.size(); ++b)
+    if (tree.carrier[b] < 0) roots.push_back(static_cast<int>(b));
+  return roots;
+}
+
+TEST(SpanningTree, HasTheFewestClosureRowsOfAllAndThenCutsTheFewestInitialValues) {
+  std::mt19937 engine(1);
+  for (int sample = 0; sample < 2000; ++sample) {
+    const Graph g = random_graph(engine);
+    std::pair best{1000, 1000};
+    for_each_tree(g, [&](unsigned tree) { best = std::min(best, cost(g, tree)); });
+    EXPECT_EQ(cost(g, chosen(span(g.bodies, g.joints))), best) << "sample " << sample;
+  }
+}
+
+TEST(SpanningTree, KeepsPinnedJointsInTheirRolesAtTheLeastCostThatLeaves) {
+  std::mt19937 engine(2);
+  int pinned = 0;
+  for (int sample = 0; sample < 2000; ++sample) {
+    Graph g = random_graph(engine);
+    for (GraphJoint& joint : g.joints)
+      if (engine() % 3 == 0) joint.cut = engine() % 2 == 0;
+    std::pair best{1000, 1000};
+    for_each_tree(g, [&](unsigned tree) { best = std::min(best, cost(g, tree)); });
+    const SpanningTree tree = span(g.bodies, g.joints);
+    EXPECT_EQ(tree.impossible.empty(), best.first < 1000) << "sample " << sample;
+    if (!tree.impossible.empty()) continue;
+    ++pinned;
+    EXPECT_EQ(cost(g, chosen(tree)), best) << "sample " << sample;
+    for (std::size_t j = 0; j < g.joints.size(); ++j)
+      if (const auto cut = g.joints[j].cut) {
+        EXPECT_EQ(tree.roles[j] == JointRole::closes, *cut) << "sample " << sample;
+      }
+  }
+  EXPECT_GT(pinned, 1000);
+}
+
+TEST(SpanningTree, IsTheShallowestOfAllWhereJointsCostTheSame) {
+  std::mt19937 engine(3);
+  for (int sample = 0; sample < 2000; ++sample) {
+    Graph g = random_graph(engine);
+    for (GraphJoint& joint : g.joints) joint.closure_rows = 5, joint.preferred = false;
+    const SpanningTree tree = span(g.bodies, g.joints);
+    const std::vector<int> roots = floating(tree), depth = depths(g, chosen(tree), roots);
+    std::vector<int> least(g.bodies.size(), 1000);
+    for_each_tree(g, [&](unsigned other) {
+      const std::vector<int> d = depths(g, other, roots);
+      for (std::size_t b = 0; b < d.size(); ++b)
+        if (d[b] >= 0) least[b] = std::min(least[b], d[b]);
+    });
+    EXPECT_EQ(depth, least) << "sample " << sample;
+  }
+}
+
+TEST(SpanningTree, HangsEveryBodyOnItsCarrierTheWayItsRoleSays) {
+  std::mt19937 engine(4);
+  for (int sample = 0; sample < 500; ++sample) {
+    const Graph g = random_graph(engine);
+    const SpanningTree tree = span(g.bodies, g.joints);
+    std::vector<int> carrier(g.bodies.size(), -1);
+    for (std::size_t j = 0; j < g.joints.size(); ++j) {
+      if (tree.roles[j] == JointRole::closes) continue;
+      const int child = tree.roles[j] == JointRole::carries_second ? g.joints[j].second : g.joints[j].first;
+      ASSERT_NE(child, kGround);
+      EXPECT_FALSE(g.bodies[child].floats);
+      carrier[child] = static_cast<int>(j);
+    }
+    EXPECT_EQ(tree.carrier, carrier) << "sample " << sample;
+    // upwards every body comes to one that floats, or to the ground
+    for (const int d : depths(g, chosen(tree), floating(tree))) EXPECT_GE(d, 0) << "sample " << sample;
+  }
+}
+
+GraphJoint joint(int first, int second, std::optional<bool> cut = std::nullopt) {
+  return {first, second, 5, cut, false};
+}
+
+TEST(SpanningTree, LeavesOneBodyOfEveryUntiedPartFloating) {
+  const auto carrier = [](const std::vector<GraphBody>& bodies, const std::vector<GraphJoint>& joints) {
+    return span(bodies, joints).carrier;
+  };
+  // by choice, else the one that no joint names second, else the first
+  EXPECT_THAT(carrier({{}, {false, true}, {}}, {joint(0, 1), joint(1, 2)}), ElementsAre(0, -1, 1));
+  EXPECT_THAT(carrier({{}, {}, {}}, {joint(2, 1), joint(1, 0)}), ElementsAre(1, 0, -1));
+  EXPECT_THAT(carrier({{}, {}}, {joint(0, 1), joint(1, 0)}), ElementsAre(-1, 0));
+  // two parts, neither tied to the ground; a cut joint does not tie
+  EXPECT_THAT(carrier({{}, {}, {}, {}}, {joint(0, 1), joint(2, 3), joint(kGround, 0, true)}),
+              ElementsAre(-1, 0, -1, 1));
+}
+
+TEST(SpanningTree, NamesTheJointsThatArePinnedIntoALoop) {
+  const GraphJoint left = joint(kGround, 0, false), top = joint(0, 1, false),
+                   right = joint(kGround, 1, false);
+  EXPECT_THAT(span({{}, {}}, {left, top}).impossible, IsEmpty());
+  EXPECT_THAT(span({{}, {}}, {left, top, right}).impossible, ElementsAre(1));
+  EXPECT_THAT(span({{true, false}}, {left}).impossible, ElementsAre(0))
+      << "a floating body cannot be carried";
 }
 
 }  // namespace

@@ -6,8 +6,14 @@
 #include "solver/assembly.h"
 #include "solver/car.h"
 #include "solver/energy.h"
+#include "solver/every_part.h"
+#include "solver/first_order.h"
 #include "solver/forward_dynamics.h"
+#include "solver/ggl_jacobian.h"
+#include "solver/ggl_residual.h"
 #include "solver/inverse_dynamics.h"
+#include "solver/loads.h"
+#include "solver/partition.h"
 
 // Every allocation of this program, operator new and Eigen's own, passes here; sanitizers bring their own malloc.
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
@@ -25,6 +31,7 @@ namespace {
 
 using testing::Built;
 using testing::car;
+using testing::NamedMechanism;
 using testing::random_loops;
 
 template <class Action>
@@ -48,6 +55,32 @@ void expect_no_allocation(Built m) {
   EXPECT_EQ(allocations([&] { project(m.system, kProjectionTolerance, s, ws); }), 0);
 }
 
+/// What IDA asks for.
+void expect_no_allocation_of_ggl(const Built& m, bool sparse) {
+  const Workspace ws = testing::with_independent_rows(m);
+  GglResidual<double> residual(m.system, ws.closure.kept);
+  GglJacobian jacobian(m.system, ws.closure.kept);
+  EXPECT_EQ(jacobian.sparse(), sparse);
+  const Eigen::Index n = residual.size();
+  VectorX y = VectorX::Zero(n), y_rate = VectorX::Ones(n), r(n);
+  VectorX values(sparse ? jacobian.entries() : n * n);
+  y.head(m.system.nq + m.system.nv + m.system.nx) << m.state.q, m.state.v, m.state.x;
+  EXPECT_EQ(allocations([&] { residual.calc(m.state.t, y.data(), y_rate.data(), r.data()); }), 0);
+  EXPECT_EQ(
+      allocations([&] { jacobian.calc(m.state.t, 1, y.data(), y_rate.data(), ws.memory, values.data()); }),
+      0);
+}
+
+/// What CVODE and ARKODE ask for.
+void expect_no_allocation_of(FirstOrderSystem& equations, const Built& m) {
+  const Eigen::Index n = equations.size();
+  VectorX y(n), y_rate(n);
+  MatrixX J(n, n);
+  equations.pack(m.state, {}, y);
+  EXPECT_EQ(allocations([&] { equations.calc_rate(m.state.t, y, y_rate); }), 0);
+  EXPECT_EQ(allocations([&] { equations.calc_jacobian(m.state.t, y, J); }), 0);
+}
+
 TEST(Allocation, CounterSeesOperatorNewAndEigen) {
   EXPECT_GT(allocations([] { VectorX::Random(100).eval(); }), 0);
   EXPECT_GT(allocations([] { ::operator delete(::operator new(3)); }),
@@ -58,8 +91,43 @@ TEST(Allocation, NoneInEvaluatingAFlexibleCarOnTires) {
   expect_no_allocation(car(54));
 }
 
-TEST(Allocation, NoneInEvaluatingLoopsOfEveryJoint) {
+TEST(Allocation, NoneInEvaluatingLoopsOfFlexibleBodies) {
   expect_no_allocation(random_loops(1));
+}
+
+TEST(Allocation, NoneInEvaluatingEveryJointAndEveryForce) {
+  for (NamedMechanism& around : testing::around_every_part()) {
+    SCOPED_TRACE(around.part);
+    expect_no_allocation(std::move(around.mechanism));
+  }
+}
+
+TEST(Allocation, NoneInCountingTurns) {
+  const Built m = testing::every_part_at_once();
+  Workspace ws = testing::with_independent_rows(m);
+  ASSERT_TRUE(counts_turns(m.system));
+  EXPECT_EQ(allocations([&] { remember_angles(m.system, m.state, ws); }), 0);
+}
+
+TEST(Allocation, NoneInTheResidualAndTheJacobianOfTheGglForm) {
+  expect_no_allocation_of_ggl(testing::four_bar(RevoluteClosure{}, 6), false);
+  expect_no_allocation_of_ggl(testing::every_part_at_once(), true);
+}
+
+TEST(Allocation, NoneInTheRatesAndTheJacobianOfFirstOrder) {
+  for (const NamedMechanism& around : testing::around_every_part()) {
+    SCOPED_TRACE(around.part);
+    Workspace ws = testing::with_independent_rows(around.mechanism);
+    FirstOrderSystem equations(around.mechanism.system, ws);
+    expect_no_allocation_of(equations, around.mechanism);
+  }
+}
+
+TEST(Allocation, NoneInTheRatesAndTheJacobianOfIndependentCoordinates) {
+  Built m = testing::four_bar(RevoluteClosure{}, 6);
+  Workspace ws = testing::assembled(m);
+  PartitionedSystem equations(m.system, ws);
+  expect_no_allocation_of(equations, m);
 }
 
 }  // namespace

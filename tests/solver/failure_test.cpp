@@ -114,5 +114,42 @@ TEST(Failure, OfUnsuitableFormsIsRefusedBeforeTheRun) {
   EXPECT_THROW(simulate(m.system, m.state, 1, 0.1, 1e-6, Method::erk, Form::ggl), InputError);
 }
 
+/// A bead of given radius of gyration on a joint whose point or axis lies `away` from it along a direction without round
+/// numbers.
+Built bead(const TreeJoint& joint, const Vector3& direction, double away, double radius) {
+  SystemBuilder b;
+  b.gravity = {0, 0, -9.81};
+  const Vector3 p_WB(0.1, 0.7, -10.3);
+  const Matrix3 J_B = 3 * radius * radius * Matrix3::Identity();
+  const int body = b.add_body("bead", 3, J_B, {Matrix3::Identity(), p_WB});
+  b.add_joint("pin", {}, body, p_WB + away * direction, joint);
+  return build(std::move(b));
+}
+
+TEST(Failure, OfAJointAboutWhichNothingHasInertiaNamesItEvenWhereRoundingHidesIt) {
+  testing::Random random(1);
+  for (int i = 0; i < 200; ++i) {
+    const Vector3 axis = random.vector(1).normalized();
+    for (const TreeJoint& joint :
+         {TreeJoint(RevoluteJoint{axis}), TreeJoint(SphericalJoint{}), TreeJoint(CylindricalJoint{axis})}) {
+      const Built m = bead(joint, axis, random.uniform(-2, 2), 0);
+      const Trajectory run = simulate(m.system, m.state, 0.1, 0.1, 1e-8);
+      EXPECT_EQ(run.summary.status, TransientSummary::Status::failed)
+          << joint_kind(joint) << ", sample " << i;
+      EXPECT_THAT(run.summary.message, AllOf(HasSubstr("body 'bead', joint 'pin'"), HasSubstr("the inertia")))
+          << joint_kind(joint) << ", sample " << i;
+    }
+  }
+}
+
+TEST(Failure, DoesNotBefallABeadAsSmallAsADustGrain) {
+  const Vector3 axis = Vector3(1, 2, 3).normalized();
+  for (const TreeJoint& joint : {TreeJoint(RevoluteJoint{axis}), TreeJoint(SphericalJoint{})}) {
+    const Built m = bead(joint, axis, 2, 1e-6);
+    EXPECT_EQ(simulate(m.system, m.state, 0.1, 0.1, 1e-8).summary.status, TransientSummary::Status::complete)
+        << joint_kind(joint);
+  }
+}
+
 }  // namespace
 }  // namespace wishbone

@@ -108,6 +108,23 @@ TEST(Integration, FormsAgreeOnAClosedLoopAndKeepItClosed) {
   }
 }
 
+TEST(Integration, AFourBarAmongManyMovesAsItDoesAlone) {
+  // alone its Jacobian is held dense, among many sparse
+  Built alone = four_bar(RevoluteClosure{}, 6.0);
+  const Trajectory one = simulate(alone.system, alone.state, 1.0, 0.1, 1e-9, Method::bdf, Form::ggl);
+  const int count = 12;
+  const Built many = testing::four_bars(count, RevoluteClosure{}, 6.0);
+  const Trajectory all = simulate(many.system, many.state, 1.0, 0.1, 1e-9, Method::bdf, Form::ggl);
+  ASSERT_EQ(all.summary.status, TransientSummary::Status::complete) << all.summary.message;
+  ASSERT_EQ(all.states.size(), one.states.size());
+  for (std::size_t i = 0; i < one.states.size(); ++i)
+    for (int k = 0; k < count; ++k) {
+      const State share{
+          one.states[i].t, all.states[i].q.segment(3 * k, 3), all.states[i].v.segment(3 * k, 3), {}};
+      EXPECT_LT(error(share, one.states[i]), loss(Method::bdf) * 1e-9) << "t = " << share.t;
+    }
+}
+
 /// A mass on a spring whose other end is moved by two smooth steps; u'' + w^2 u = w^2 s(t).
 struct DrivenOscillator {
   static constexpr double mass = 2, k = 50, c = 3, l0 = 1;

@@ -97,6 +97,23 @@ void randomize(Built& m, Random& random) {
   m.state.v += random.numbers(m.system.nv, 1);
 }
 
+void add_four_bar(SystemBuilder& builder, const CutJoint& cut, double crank_rate) {
+  const double a = 1, b = 3, c = 2.5, d = 3, th = M_PI / 3;
+  const Vector3 A(0, 0, 0), D(d, 0, 0), B(a * std::cos(th), a * std::sin(th), 0);
+  // C lies on the circles about B and D, above the line BD
+  const Vector3 BD = D - B;
+  const double s = BD.norm(), along = (b * b - c * c + s * s) / (2 * s);
+  const Vector3 C = B + along * BD / s + std::sqrt(b * b - along * along) * Vector3(-BD.y(), BD.x(), 0) / s;
+
+  const int crank = add_rod(builder, "crank", A, B);
+  const int coupler = add_rod(builder, "coupler", B, C);
+  const int rocker = add_rod(builder, "rocker", D, C);
+  builder.add_joint("A", {}, crank, A, RevoluteJoint{}, 0, crank_rate);
+  builder.add_joint("B", {crank}, coupler, B, RevoluteJoint{});
+  builder.add_joint("D", {}, rocker, D, RevoluteJoint{});
+  builder.add_closure("C", builder.add_marker({coupler}, C), builder.add_marker({rocker}, C), cut);
+}
+
 }  // namespace
 
 Workspace assembled(Built& mechanism) {
@@ -186,24 +203,15 @@ Built random_loops(unsigned seed) {
   return m;
 }
 
-Built four_bar(const CutJoint& cut, double crank_rate) {
-  const double a = 1, b = 3, c = 2.5, d = 3, th = M_PI / 3;
-  const Vector3 A(0, 0, 0), D(d, 0, 0), B(a * std::cos(th), a * std::sin(th), 0);
-  // C lies on the circles about B and D, above the line BD
-  const Vector3 BD = D - B;
-  const double s = BD.norm(), along = (b * b - c * c + s * s) / (2 * s);
-  const Vector3 C = B + along * BD / s + std::sqrt(b * b - along * along) * Vector3(-BD.y(), BD.x(), 0) / s;
-
+Built four_bars(int count, const CutJoint& cut, double crank_rate) {
   SystemBuilder builder;
   builder.gravity = {0, -9.81, 0};
-  const int crank = add_rod(builder, "crank", A, B);
-  const int coupler = add_rod(builder, "coupler", B, C);
-  const int rocker = add_rod(builder, "rocker", D, C);
-  builder.add_joint("A", {}, crank, A, RevoluteJoint{}, 0, crank_rate);
-  builder.add_joint("B", {crank}, coupler, B, RevoluteJoint{});
-  builder.add_joint("D", {}, rocker, D, RevoluteJoint{});
-  builder.add_closure("C", builder.add_marker({coupler}, C), builder.add_marker({rocker}, C), cut);
+  for (int k = 0; k < count; ++k) add_four_bar(builder, cut, crank_rate);
   return build(std::move(builder));
+}
+
+Built four_bar(const CutJoint& cut, double crank_rate) {
+  return four_bars(1, cut, crank_rate);
 }
 
 }  // namespace wishbone::testing

@@ -91,4 +91,7 @@ Built random_loops(unsigned seed);
 /// uniform rods of 1 kg/m, crank at 60 degrees turning with `crank_rate`. Coupler and rocker are joined at C by a cut joint.
 Built four_bar(const CutJoint& cut, double crank_rate);
 
+/// `count` of them in one system, not tied to each other: the k-th has the coordinates 3 k, 3 k + 1 and 3 k + 2.
+Built four_bars(int count, const CutJoint& cut, double crank_rate);
+
 }  // namespace wishbone::testing
