@@ -9,9 +9,9 @@ namespace wishbone {
 /// What every force element is given in one evaluation.
 template <class T>
 struct ForceInputT {
-  double time = 0;                           ///< [s]
-  std::span<const MarkerStateT<T>> markers;  ///< by MarkerIndex
-  std::span<const T> states;  ///< states of the element's own (tire lag, ...); empty when it has none
+  double time = 0;                                ///< [s]
+  std::span<const MarkerStateT<T>> markers = {};  ///< by MarkerIndex
+  std::span<const T> states = {};  ///< states of the element's own (tire lag, ...); empty when it has none
   int segment = 0;   ///< the element's discrete state (road segment of a tire, ...), changed only by events
   double angle = 0;  ///< the angle that the element's gauge had last, from which turns are counted [rad]
   /// Of functions (core/function.h): the time, then the system's signals (forces/motion_signal.h).
@@ -28,6 +28,11 @@ struct ForceOutputT {
 };
 using ForceOutput = ForceOutputT<double>;
 
+/// Where a segment begins and ends; infinite at the outer ones.
+struct Edges {
+  double lower, upper;
+};
+
 /// The contract of a force element (a concept, not a base class: the evaluation calls concrete types, without
 /// virtual dispatch). A type F in the room `forces` has
 ///
@@ -43,6 +48,14 @@ using ForceOutput = ForceOutputT<double>;
 ///     std::vector<int> variables() const;                    // of its functions, see ForceInputT::variables
 ///     std::vector<double> stop_times() const;                // at which it is only piecewise smooth [s]
 ///     double angle(const ForceInput&) const;                 // of its gauge, from which turns are counted [rad]
+///
+/// An element whose law is smooth only between edges of one position has segments: while a step is taken the law of
+/// ForceInputT::segment holds, also a little beyond its edges, and passing an edge is an event (solver/events.h):
+///
+///     bool has_segments() const;                             // whether there is more than one
+///     double position(const ForceInput&) const;
+///     int segment_at(double position) const;
+///     Edges edges(int segment) const;
 ///
 /// Throws NumericsError naming itself, the time and the value when its law is undefined at the given state.
 

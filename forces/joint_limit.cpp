@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace wishbone {
@@ -56,6 +57,18 @@ double JointLimit::energy(const ForceInput& input) const {
 
 JointForceOutput JointLimit::output(const ForceInput& input) const {
   return coordinate_.output(input, [this](double u, double rate) { return force(u, rate); });
+}
+
+int JointLimit::segment_at(double u) const {
+  if (lower_ && u < *lower_) return 0;
+  return upper_ && u > *upper_ ? 2 : 1;
+}
+
+Edges JointLimit::edges(int segment) const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const double lower = lower_.value_or(-kInfinity), upper = upper_.value_or(kInfinity);
+  if (segment == 1) return {lower, upper};
+  return segment == 0 ? Edges{-kInfinity, lower} : Edges{upper, kInfinity};
 }
 
 template void JointLimit::apply(const ForceInputT<double>&, ForceOutputT<double>&) const;

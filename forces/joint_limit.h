@@ -39,6 +39,12 @@ class JointLimit {
   double angle(const ForceInput& input) const { return coordinate_.value(input); }
   JointForceOutput output(const ForceInput& input) const;
 
+  // edges at the limits, positions u: in contact with the lower stop (segment 0), free (1), with the upper one (2)
+  bool has_segments() const { return true; }
+  double position(const ForceInput& input) const { return coordinate_.value(input); }
+  int segment_at(double u) const;
+  Edges edges(int segment) const;
+
  private:
   template <class T>
   T force(const T& u, const T& rate) const;

@@ -109,7 +109,12 @@ void PartitionedSystem::choose(const State& state) {
   // columns in the metric of kinetic energy: a speed counts by the inertia that moves with it
   VectorX scale = VectorX::Ones(system_.nv);
   for (const TreeBody& body : system_.bodies)
-    for (int j = body.v_start; j < body.v_start + body.nv; ++j) scale[j] = 1 / ws_.root[j];
+    for (int j = body.v_start; j < body.v_start + body.nv; ++j) {
+      // D_jj = sum L_jk^2, L_jk = h_j^T g_k
+      double D_jj = 0;
+      for (int k = body.v_start; k <= j; ++k) D_jj += std::pow(ws_.H[j].dot(ws_.G[k]), 2);
+      scale[j] = 1 / std::sqrt(D_jj);
+    }
   const Eigen::ColPivHouseholderQR<MatrixX> qr(D_ * scale.asDiagonal());
   const auto& order = qr.colsPermutation().indices();
   dependent_.assign(order.data(), order.data() + n_dependent_);

@@ -53,10 +53,7 @@ class Run {
         check_limits(summary.integrator, t);
         check_progress(t);
         if (keep_going && t < options_.duration && !keep_going(t)) return interrupt(summary, t);
-        if (!step.events.empty()) {
-          for (const int event : step.events) handle_event(system_, event, ws_);
-          restart(t, summary);
-        }
+        if (!step.events.empty()) restart(t, summary, step.events);
         if (t < stop) accept(t, summary);
       }
       if (stop < options_.duration) restart(stop, summary);
@@ -102,8 +99,13 @@ class Run {
                            "tighten analysis.rtol, or look for a singular position at this time"});
   }
 
-  void restart(double t, TransientSummary& summary) {
+  void restart(double t, TransientSummary& summary, std::span<const int> events = {}) {
     interpolate(t);
+    if (!events.empty()) {
+      update_positions<double>(system_, state_.t, state_.q, ws_);
+      update_markers<double>(system_, ws_);
+      pass_edges(system_, events, ws_);
+    }
     integrator_->restart(state_, work_);
     ++summary.restarts;
   }

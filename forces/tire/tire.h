@@ -55,6 +55,12 @@ class Tire {
   const UaTireParameters& parameters() const { return parameters_; }
   const Road& road() const { return road_; }
 
+  // the edges of the road, and where on it the wheel's centre is: its x [m]
+  bool has_segments() const { return road_.segment_count() > 1; }
+  double position(const ForceInput& input) const { return input.markers[wheel_].p_WM.x(); }
+  int segment_at(double x) const { return road_.segment_at(x); }
+  Edges edges(int segment) const { return {road_.lower_edge(segment), road_.upper_edge(segment)}; }
+
   std::vector<MarkerIndex> markers() const { return {wheel_}; }
   int state_count() const { return lag_ ? 2 : 0; }
   template <class T>

@@ -50,7 +50,7 @@ double distance(const State& a, const State& b) {
 /// A run in independent coordinates, compared with one with multipliers; returns how often the coordinates were chosen anew.
 long expect_the_motion_of_index1(const Built& m, Method method, double bound) {
   const Trajectory with_multipliers = simulate(m.system, m.state, 2, 0.04, 1e-12, Method::erk, Form::index1);
-  const Trajectory independent = simulate(m.system, m.state, 2, 0.04, 1e-11, method, Form::partition);
+  const Trajectory independent = simulate(m.system, m.state, 2, 0.04, 1e-12, method, Form::partition);
   EXPECT_EQ(independent.summary.status, TransientSummary::Status::complete) << independent.summary.message;
   double worst = 0;
   for (std::size_t i = 0; i < independent.states.size(); ++i)
