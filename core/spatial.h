@@ -109,6 +109,16 @@ inline Vector6 shift_wrench(const Vector6& F_B, const Vector3& p_PB) {
   return shift_wrench<double>(F_B, p_PB);
 }
 
+/// R J R^T of a symmetric J.
+inline Matrix3 rotate_inertia(const Matrix3& R, const Matrix3& J) {
+  const Matrix3 RJ = R * J;
+  Matrix3 result;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j <= i; ++j)
+      result(i, j) = result(j, i) = RJ(i, 0) * R(j, 0) + RJ(i, 1) * R(j, 1) + RJ(i, 2) * R(j, 2);
+  return result;
+}
+
 /// Adds a (possibly articulated) spatial inertia I_B about Bo to one about Po:
 /// I_P += X^T I_B X with X = [1 0; -p~ 1] the rigid shift from Po to Bo. With blocks [J B; B^T M] about Bo those about Po are
 /// [J + p~ B^T - B_P p~, B_P; B_P^T, M], B_P = B + p~ M.

@@ -17,7 +17,7 @@ namespace wishbone {
 ///     w_FM = J(phi) phi' = phi' + c_2 phi x phi' + c_3 phi x (phi x phi').
 struct ConstantVelocityJoint : AdditiveCoordinates<2> {
   static constexpr const char* kKind = "constant_velocity";
-  static constexpr bool kHasDrift = true;
+  static constexpr bool kRotates = true, kTranslates = false, kHasDrift = true;
 
   Vector3 first_F = Vector3::UnitX();  ///< unit vectors normal to the shaft and to each other
   Vector3 second_F = Vector3::UnitY();

@@ -8,7 +8,7 @@ namespace wishbone {
 /// Rotation about an axis fixed in F and M, and translation along it: q = (angle [rad], travel [m]), v = q'.
 struct CylindricalJoint : AdditiveCoordinates<2> {
   static constexpr const char* kKind = "cylindrical";
-  static constexpr bool kHasDrift = false;
+  static constexpr bool kRotates = true, kTranslates = true, kHasDrift = false;
 
   Vector3 axis_F = Vector3::UnitZ();  ///< unit vector
 

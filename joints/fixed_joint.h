@@ -9,7 +9,7 @@ struct FixedJoint {
   static constexpr const char* kKind = "fixed";
   static constexpr int kNq = 0;
   static constexpr int kNv = 0;
-  static constexpr bool kHasDrift = false;
+  static constexpr bool kRotates = false, kTranslates = false, kHasDrift = false;
 
   template <class T>
   void calc_across(double /*t*/, const T* /*q*/, AcrossJoint<kNv, T>& /*out*/) const {}

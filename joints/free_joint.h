@@ -11,7 +11,7 @@ struct FreeJoint {
   static constexpr const char* kKind = "free";
   static constexpr int kNq = 7;
   static constexpr int kNv = 6;
-  static constexpr bool kHasDrift = false;
+  static constexpr bool kRotates = true, kTranslates = true, kHasDrift = false;
 
   template <class T>
   void calc_across(double /*t*/, const T* q, AcrossJoint<kNv, T>& out) const {

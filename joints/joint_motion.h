@@ -18,6 +18,8 @@ struct AcrossJoint {
 ///
 ///     static constexpr const char* kKind;                       "revolute", ...
 ///     static constexpr int kNq, kNv;                            numbers of coordinates and speeds
+///     static constexpr bool kRotates, kTranslates;              whether M ever turns against F; whether its origin leaves
+///                                                               that of F. What never happens is left out
 ///     static constexpr bool kHasDrift;                          whether calc_drift gives anything but zero
 ///     void calc_across(double t, const T* q, AcrossJoint<kNv, T>&) const;
 ///     void calc_drift(double t, const T* q, const T* v, Vector6T<T>& V_drift, Vector6T<T>& A_drift) const;

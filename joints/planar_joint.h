@@ -10,7 +10,7 @@ namespace wishbone {
 /// Motion in a plane fixed in F: q = (x along first [m], y along second [m], angle about the plane's normal [rad]), v = q'.
 struct PlanarJoint : AdditiveCoordinates<3> {
   static constexpr const char* kKind = "planar";
-  static constexpr bool kHasDrift = false;
+  static constexpr bool kRotates = true, kTranslates = true, kHasDrift = false;
 
   Vector3 axis_F = Vector3::UnitZ();   ///< unit normal, fixed in F and M
   Vector3 first_F = Vector3::UnitX();  ///< (axis, first, second) is a right-handed triad

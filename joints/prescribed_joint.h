@@ -11,7 +11,7 @@ struct PrescribedJoint {
   static constexpr const char* kKind = "prescribed";
   static constexpr int kNq = 0;
   static constexpr int kNv = 0;
-  static constexpr bool kHasDrift = true;
+  static constexpr bool kRotates = true, kTranslates = true, kHasDrift = true;
   enum class Kind { revolute, prismatic };
 
   Kind kind = Kind::revolute;

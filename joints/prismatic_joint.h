@@ -8,7 +8,7 @@ namespace wishbone {
 /// Translation by q [m] along an axis fixed in F and M; v = q' [m/s].
 struct PrismaticJoint : AdditiveCoordinates<1> {
   static constexpr const char* kKind = "prismatic";
-  static constexpr bool kHasDrift = false;
+  static constexpr bool kRotates = false, kTranslates = true, kHasDrift = false;
 
   Vector3 axis_F = Vector3::UnitZ();  ///< unit vector
 

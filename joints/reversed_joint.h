@@ -14,7 +14,7 @@ struct Reversed {
   static constexpr const char* kKind = Joint::kKind;
   static constexpr int kNq = Joint::kNq;
   static constexpr int kNv = Joint::kNv;
-  static constexpr bool kHasDrift = true;
+  static constexpr bool kRotates = Joint::kRotates, kTranslates = Joint::kTranslates, kHasDrift = true;
 
   Joint joint;
 

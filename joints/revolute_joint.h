@@ -8,7 +8,7 @@ namespace wishbone {
 /// Rotation by the angle q [rad] about an axis fixed in F and M; v = q' [rad/s].
 struct RevoluteJoint : AdditiveCoordinates<1> {
   static constexpr const char* kKind = "revolute";
-  static constexpr bool kHasDrift = false;
+  static constexpr bool kRotates = true, kTranslates = false, kHasDrift = false;
 
   Vector3 axis_F = Vector3::UnitZ();  ///< unit vector
 

@@ -8,7 +8,7 @@ namespace wishbone {
 /// Rotation by the angle q [rad] about an axis fixed in F and M, with the travel pitch q along it; v = q' [rad/s].
 struct ScrewJoint : AdditiveCoordinates<1> {
   static constexpr const char* kKind = "screw";
-  static constexpr bool kHasDrift = false;
+  static constexpr bool kRotates = true, kTranslates = true, kHasDrift = false;
 
   Vector3 axis_F = Vector3::UnitZ();  ///< unit vector
   double pitch = 0;                   ///< travel per angle [m/rad], > 0 right-handed

@@ -10,7 +10,7 @@ struct SphericalJoint {
   static constexpr const char* kKind = "spherical";
   static constexpr int kNq = 4;
   static constexpr int kNv = 3;
-  static constexpr bool kHasDrift = false;
+  static constexpr bool kRotates = true, kTranslates = false, kHasDrift = false;
 
   template <class T>
   void calc_across(double /*t*/, const T* q, AcrossJoint<kNv, T>& out) const {

@@ -11,7 +11,7 @@ namespace wishbone {
 /// Its two axes are independent in every pose.
 struct UniversalJoint : AdditiveCoordinates<2> {
   static constexpr const char* kKind = "universal";
-  static constexpr bool kHasDrift = true;
+  static constexpr bool kRotates = true, kTranslates = false, kHasDrift = true;
 
   Vector3 first_F = Vector3::UnitX();   ///< unit vector, fixed in F
   Vector3 second_F = Vector3::UnitY();  ///< unit vector normal to it, fixed in M; at q1 = 0

@@ -25,8 +25,9 @@ constexpr double kLeastPivot = 1e-14;
 }
 
 void set_own_inertia(const TreeBody& body, const BodyMotion& s, ArticulatedBody& a) {
+  a.J = rotate_inertia(s.X_WB.R, body.J_B);
   a.P.setZero();
-  a.P.topLeftCorner<3, 3>() = s.X_WB.R * body.J_B * s.X_WB.R.transpose();
+  a.P.topLeftCorner<3, 3>() = a.J;
   a.P.bottomRightCorner<3, 3>().diagonal().setConstant(body.mass);
 }
 
@@ -34,7 +35,7 @@ void set_own_inertia(const TreeBody& body, const BodyMotion& s, ArticulatedBody&
 void set_own_inertia(const FlexibleBody& flexible, const BodyMotion& s, const ModalBodyState& modal,
                      ArticulatedBody& a, CondensedModes& f) {
   a.P.setZero();
-  a.P.topLeftCorner<3, 3>() = s.X_WB.R * modal.J * s.X_WB.R.transpose();
+  a.P.topLeftCorner<3, 3>() = rotate_inertia(s.X_WB.R, modal.J);
   a.P.bottomRightCorner<3, 3>().diagonal().setConstant(flexible.modal.mass());
   f.Y.leftCols<3>().noalias() = modal.S.transpose() * s.X_WB.R.transpose();
   f.Y.rightCols<3>().setZero();
@@ -82,24 +83,25 @@ void eliminate_joint(const TreeBody& body, const BodyMotion& s, Workspace& ws, M
     // of |w|^2 (tr J + tr m |p_MB|^2) + |v|^2 tr m, and what the rounding of earlier pivots adds, by (L_ik/L_kk)^2
     rounding[i] = J * angular(h).squaredNorm() + m * linear(h).squaredNorm();
     for (int k = 0; k < i; ++k) {
-      const double share = h.dot(ws.G[body.v_start + k]) / ws.root[body.v_start + k];
+      const double share = h.dot(ws.G[body.v_start + k]) * ws.inverse_root[body.v_start + k];
       rounding[i] += share * share * rounding[k];
     }
     const Vector6 Ph = P * h;
     double pivot = h.dot(Ph);
     if (!(pivot > rounding[i])) fail_singular(body, pivot);
     if (ws.stiffening.size() > 0) pivot *= ws.stiffening[j];
-    ws.root[j] = std::sqrt(pivot);
-    Vector6& g = ws.G[j];
-    g = Ph / ws.root[j];
-    for (int k = 0; k < 6; ++k) P.col(k) -= g[k] * g;
+    // g g^T = P h (P h)^T / pivot: the next body need not wait for the root
+    const Vector6 scaled = Ph * (1 / pivot);
+    for (int k = 0; k < 6; ++k) P.col(k) -= Ph[k] * scaled;
+    ws.inverse_root[j] = 1 / std::sqrt(pivot);
+    ws.G[j] = Ph * ws.inverse_root[j];
   }
 }
 
 /// e = L^-1 (tau - H^T Z) for the speeds of a joint, which hold tau on entry; Z <- Z + G e, as the parent feels it.
 void pass_bias(const TreeBody& body, const Workspace& ws, VectorX& e, Vector6& Z) {
   for (int j = body.v_start; j < body.v_start + body.nv; ++j) {
-    e[j] = (e[j] - ws.H[j].dot(Z)) / ws.root[j];
+    e[j] = (e[j] - ws.H[j].dot(Z)) * ws.inverse_root[j];
     Z += ws.G[j] * e[j];
   }
 }
@@ -107,7 +109,7 @@ void pass_bias(const TreeBody& body, const Workspace& ws, VectorX& e, Vector6& Z
 /// v' = L^-T (e - G^T A) for the speeds of a joint, and A <- A + H v': from what the parent hands on to the body.
 void accelerate_joint(const TreeBody& body, const Workspace& ws, Vector6& A, VectorX& v_rate) {
   for (int j = body.v_start + body.nv - 1; j >= body.v_start; --j) {
-    v_rate[j] = (ws.e[j] - ws.G[j].dot(A)) / ws.root[j];
+    v_rate[j] = (ws.e[j] - ws.G[j].dot(A)) * ws.inverse_root[j];
     A += ws.H[j] * v_rate[j];
   }
 }
@@ -128,8 +130,8 @@ void set_own_bias(const System& system, int i, Workspace& ws) {
     modal_part(system.flexible[body.flexible], ws.e) = f.load - f.modal.h_bias;
   } else {
     // w x J w
-    const Vector3 w_B = s.X_WB.R.transpose() * angular(s.V);
-    Z.head<3>() += s.X_WB.R * w_B.cross(body.J_B * w_B);
+    const Vector3 w = angular(s.V), Jw = ws.articulated[i].J * w;
+    Z.head<3>() += w.cross(Jw);
   }
 }
 
@@ -237,7 +239,7 @@ void pass_through_joint(const TreeBody& body, const Workspace& ws, Eigen::Ref<Ma
     Vector6 Z = z.col(column);
     for (int i = 0; i < body.nv; ++i) {
       const int j = body.v_start + i;
-      U(i, column) = ws.H[j].dot(Z) / ws.root[j];
+      U(i, column) = ws.H[j].dot(Z) * ws.inverse_root[j];
       Z -= ws.G[j] * U(i, column);
     }
     z.col(column) = Z;

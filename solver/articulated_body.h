@@ -9,7 +9,7 @@ namespace wishbone {
 ///
 ///   D = H^T P H = L L^T,   G = P H L^-T,   P+ = P - G G^T   (what the parent feels through the joint)
 ///
-/// Columns of G and pivots of L come one speed after the other, so L itself is never formed: L_jj = Workspace::root[j] and
+/// Columns of G and pivots of L come one speed after the other, so L itself is never formed: L_jj = 1/Workspace::inverse_root[j] and
 /// L_ij = h_i^T g_j. Velocity products c act through P+: Z+ = Z + G e + P+ c.
 ///
 /// A flexible body condenses its modal coordinates the same way before its joint is treated:
@@ -18,7 +18,7 @@ namespace wishbone {
 ///
 /// M_zz is the identity unless joints hang on the body's nodes, so a free flexible body costs O(modes).
 
-/// P+, G and root of all bodies, from the tips inward. Needs update_positions.
+/// P+, G and pivots of all bodies, from the tips inward. Needs update_positions.
 void factor_inertia(const System& system, Workspace& ws);
 
 /// What enters an acceleration.

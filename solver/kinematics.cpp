@@ -31,6 +31,22 @@ Matrix3T<T> inboard_axes(const TreeBody& body, const Matrix3T<T>& R_WP) {
   return body.turned_PF ? Matrix3T<T>(R_WP * body.X_PF.R) : R_WP;
 }
 
+/// Columns of H about Bo, world axes: (w, v_Mo + w x p_MB).
+template <class Joint, class T>
+void set_hinge_columns(const Matrix3T<T>& R_WF, const Eigen::Matrix<T, 6, Joint::kNv>& H_F,
+                       const Vector3T<T>& p_MB, Vector6T<T>* H) {
+  if constexpr (Joint::kNv > 0)
+    for (int i = 0; i < Joint::kNv; ++i) {
+      Vector3T<T> w = Vector3T<T>::Zero(), v_B = Vector3T<T>::Zero();
+      if constexpr (Joint::kRotates) {
+        w = R_WF * H_F.template block<3, 1>(0, i);
+        v_B = w.cross(p_MB);
+      }
+      if constexpr (Joint::kTranslates) v_B += R_WF * H_F.template block<3, 1>(3, i);
+      H[i] << w, v_B;
+    }
+}
+
 template <class Joint, class T>
 void update_position(const System& system, const TreeBody& body, const Joint& joint, double t, const T* q,
                      Evaluation<T>& ev, BodyMotionT<T>& s) {
@@ -40,14 +56,16 @@ void update_position(const System& system, const TreeBody& body, const Joint& jo
   joint.calc_across(t, q, across);
 
   const Matrix3T<T> R_WF = inboard_axes(body, parent.X_WB.R);
-  const Matrix3T<T> R_WM = R_WF * across.X_FM.R;
+  Matrix3T<T> R_WM = R_WF;
+  if constexpr (Joint::kRotates) R_WM = R_WF * across.X_FM.R;
   if (body.turned_MB)
     s.X_WB.R = R_WM * body.X_MB.R;
   else
     s.X_WB.R = R_WM;
   s.p_MB = R_WM * body.X_MB.p;
   // p_PB = p_PF + p_FM + p_MB
-  s.p_PB = R_WF * across.X_FM.p + s.p_MB;
+  s.p_PB = s.p_MB;
+  if constexpr (Joint::kTranslates) s.p_PB += R_WF * across.X_FM.p;
   if (body.parent_node < 0)
     s.p_PB += parent.X_WB.R * body.X_PF.p;
   else
@@ -55,13 +73,7 @@ void update_position(const System& system, const TreeBody& body, const Joint& jo
               ev.flexible[system.bodies[body.parent].flexible].modal.interface_b.col(body.parent_node);
   s.X_WB.p = parent.X_WB.p + s.p_PB;
 
-  // columns of H about Bo, world axes: (w, v_Mo + w x p_MB)
-  if constexpr (nv > 0)
-    for (int i = 0; i < nv; ++i) {
-      const Vector3T<T> w = R_WF * across.H.template block<3, 1>(0, i);
-      const Vector3T<T> v_M = R_WF * across.H.template block<3, 1>(3, i);
-      ev.H[body.v_start + i] << w, v_M + w.cross(s.p_MB);
-    }
+  set_hinge_columns<Joint, T>(R_WF, across.H, s.p_MB, ev.H.data() + body.v_start);
 }
 
 template <class Joint, class T>

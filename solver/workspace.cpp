@@ -38,7 +38,7 @@ Workspace::Workspace(const System& system)
     : Evaluation<double>(system),
       articulated(system.bodies.size()),
       G(system.nv, Vector6::Zero()),
-      root(VectorX::Ones(system.nv)),
+      inverse_root(VectorX::Ones(system.nv)),
       v_rate(VectorX::Zero(system.nv)),
       e(VectorX::Zero(system.nv)),
       hinge_force(VectorX::Zero(system.nv)),

@@ -10,6 +10,7 @@ namespace wishbone {
 
 /// Articulated-body numbers of one body, world axes about Bo.
 struct ArticulatedBody {
+  Matrix3 J = Matrix3::Zero();  ///< of a rigid body alone
   Matrix6 P = Matrix6::Zero();  ///< articulated inertia; after factoring P+, as felt through the joint
   Vector6 Z = Vector6::Zero();  ///< articulated bias force; after calc_bias as felt through the joint at rest
 };
@@ -49,7 +50,7 @@ struct Workspace : Evaluation<double> {
   std::vector<ArticulatedBody> articulated;
   std::vector<CondensedModes> condensed;
   std::vector<Vector6> G;  ///< P H L^-T, a column for each speed of the joints
-  VectorX root;            ///< diagonal of L: root of the inertia that each speed of the joints moves
+  VectorX inverse_root;    ///< 1/L_jj: of the root of the inertia that each speed of the joints moves
   VectorX v_rate;          ///< v'
   VectorX e;               ///< F tau, nv (articulated_body.h)
   VectorX hinge_force;     ///< generalised forces (nv), for Terms::hinge_forces

@@ -28,8 +28,9 @@ Built blocks_between_walls(int count, double offset) {
     const Vector3 p(i * offset, i, 0);
     const int block = b.add_body("block", kMass, diagonal(1, 1, 1), {Matrix3::Identity(), p});
     b.add_joint("slide", {}, block, p, PrismaticJoint(Vector3::UnitX()), {{0}, {kSpeed}, {1}});
-    b.add_force(JointLimit("walls", b.add_marker({}), b.add_marker({block}), Gauge{Gauge::Kind::translation, 0},
-                           i * offset - kGap, i * offset + kGap, {kStiffness, 1, 0}));
+    b.add_force(JointLimit("walls", b.add_marker({}), b.add_marker({block}),
+                           Gauge{Gauge::Kind::translation, 0}, i * offset - kGap, i * offset + kGap,
+                           {kStiffness, 1, 0}));
   }
   return build(std::move(b));
 }
