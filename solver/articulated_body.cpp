@@ -98,19 +98,32 @@ void eliminate_joint(const TreeBody& body, const BodyMotion& s, Workspace& ws, M
   }
 }
 
+// From body to body 6-vectors are worked on by halves: the shifts between bodies write 3-vectors, and a load of packets that
+// straddle what was just stored in pieces has to wait for the memory.
+
+double power(const Vector6& a, const Vector6& b) {
+  return angular(a).dot(angular(b)) + linear(a).dot(linear(b));
+}
+
+/// b += a s.
+void add_scaled(const Vector6& a, double s, Vector6& b) {
+  b.head<3>() += angular(a) * s;
+  b.tail<3>() += linear(a) * s;
+}
+
 /// e = L^-1 (tau - H^T Z) for the speeds of a joint, which hold tau on entry; Z <- Z + G e, as the parent feels it.
 void pass_bias(const TreeBody& body, const Workspace& ws, VectorX& e, Vector6& Z) {
   for (int j = body.v_start; j < body.v_start + body.nv; ++j) {
-    e[j] = (e[j] - ws.H[j].dot(Z)) * ws.inverse_root[j];
-    Z += ws.G[j] * e[j];
+    e[j] = (e[j] - power(ws.H[j], Z)) * ws.inverse_root[j];
+    add_scaled(ws.G[j], e[j], Z);
   }
 }
 
 /// v' = L^-T (e - G^T A) for the speeds of a joint, and A <- A + H v': from what the parent hands on to the body.
 void accelerate_joint(const TreeBody& body, const Workspace& ws, Vector6& A, VectorX& v_rate) {
   for (int j = body.v_start + body.nv - 1; j >= body.v_start; --j) {
-    v_rate[j] = (ws.e[j] - ws.G[j].dot(A)) * ws.inverse_root[j];
-    A += ws.H[j] * v_rate[j];
+    v_rate[j] = (ws.e[j] - power(ws.G[j], A)) * ws.inverse_root[j];
+    add_scaled(ws.H[j], v_rate[j], A);
   }
 }
 
@@ -147,7 +160,7 @@ void set_biases(const System& system, Terms terms, Workspace& ws) {
 
 }  // namespace
 
-void factor_inertia(const System& system, Workspace& ws) {
+[[gnu::flatten]] void factor_inertia(const System& system, Workspace& ws) {
   ++ws.work.inertia;
   const int n = static_cast<int>(system.bodies.size());
   for (int i = 0; i < n; ++i) {
@@ -174,7 +187,7 @@ void factor_inertia(const System& system, Workspace& ws) {
   }
 }
 
-void calc_bias(const System& system, Terms terms, Workspace& ws) {
+[[gnu::flatten]] void calc_bias(const System& system, Terms terms, Workspace& ws) {
   ++ws.work.solves;
   set_biases(system, terms, ws);
   for (int i = static_cast<int>(system.bodies.size()) - 1; i >= 0; --i) {
@@ -192,18 +205,24 @@ void calc_bias(const System& system, Terms terms, Workspace& ws) {
     pass_bias(body, ws, ws.e, a.Z);
     if (body.parent < 0) continue;
     // Z+ = Z + G e + P+ c
-    Vector6 Z_plus = a.Z;
-    if (terms == Terms::all) Z_plus += a.P * s.c;
-    ws.articulated[body.parent].Z += shift_wrench(Z_plus, s.p_PB);
+    Vector3 t = angular(a.Z), f = linear(a.Z);
+    if (terms == Terms::all) {
+      const Vector6 Pc = a.P * s.c;
+      t += angular(Pc);
+      f += linear(Pc);
+    }
+    Vector6& Z_P = ws.articulated[body.parent].Z;
+    Z_P.head<3>() += t + s.p_PB.cross(f);
+    Z_P.tail<3>() += f;
     if (body.parent_node >= 0) {
       const FlexibleBody& parent = system.flexible[system.bodies[body.parent].flexible];
-      const Vector3 f_P = ws.bodies[body.parent].X_WB.R.transpose() * linear(Z_plus);
+      const Vector3 f_P = ws.bodies[body.parent].X_WB.R.transpose() * f;
       modal_part(parent, ws.e).noalias() -= parent.modal.interface_shape(body.parent_node).transpose() * f_P;
     }
   }
 }
 
-void calc_accelerations(const System& system, Terms terms, Workspace& ws, VectorX& v_rate) {
+[[gnu::flatten]] void calc_accelerations(const System& system, Terms terms, Workspace& ws, VectorX& v_rate) {
   for (std::size_t i = 0; i < system.bodies.size(); ++i) {
     const TreeBody& body = system.bodies[i];
     BodyMotion& s = ws.bodies[i];
@@ -211,7 +230,8 @@ void calc_accelerations(const System& system, Terms terms, Workspace& ws, Vector
     if (terms == Terms::all) A = s.c;
     if (body.parent >= 0) {
       const BodyMotion& parent = ws.bodies[body.parent];
-      A += shift_velocity(parent.A, s.p_PB);
+      A.head<3>() += angular(parent.A);
+      A.tail<3>() += linear(parent.A) + angular(parent.A).cross(s.p_PB);
       if (body.parent_node >= 0) {
         const int k = system.bodies[body.parent].flexible;
         const Vector3 a_P = system.flexible[k].modal.interface_shape(body.parent_node) * ws.flexible[k].z_dd;

@@ -115,6 +115,22 @@ void update_velocity(const System& system, const TreeBody& body, const Joint& jo
   }
 }
 
+// Of doubles with everything inlined (flatten): this runs in every evaluation, and left to itself the compiler makes half of
+// the operations on 3-vectors calls. Of Duals the calls cost little, and the code would be large.
+
+template <class Joint>
+[[gnu::flatten]] void update_position(const System& system, const TreeBody& body, const Joint& joint,
+                                      double t, const double* q, Evaluation<double>& ev, BodyMotion& s) {
+  update_position<Joint, double>(system, body, joint, t, q, ev, s);
+}
+
+template <class Joint>
+[[gnu::flatten]] void update_velocity(const System& system, const TreeBody& body, const Joint& joint,
+                                      double t, const double* q, const double* v,
+                                      const Evaluation<double>& ev, BodyMotion& s) {
+  update_velocity<Joint, double>(system, body, joint, t, q, v, ev, s);
+}
+
 }  // namespace
 
 template <class T>
