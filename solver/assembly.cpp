@@ -22,6 +22,7 @@ constexpr double kAssemblyTolerance = 1e-13;      // [m, rad]
 constexpr double kContradictionTolerance = 1e-8;  // residual of a redundant row that still counts as closed
 constexpr int kMaxAssemblySteps = 200;
 constexpr double kMaxDamping = 1e12;
+constexpr double kNearSingular = 0.2;     // least sine of the closure rows
 constexpr double kFastConvergence = 0.1;  // of residuals, below which a factor serves again
 
 void update_closed_kinematics(const System& system, const State& state, Workspace& ws) {
@@ -116,8 +117,12 @@ bool project_positions(const System& system, double tolerance, bool& factored, S
     const double residual = largest_kept(ws.Phi, factored, ws);
     if (!std::isfinite(residual)) return false;
     // one correction takes the residual to rounding; stopping short of it would leave noise that does not shrink with the
-    // step and that multistep formulas amplify
-    if (residual <= rounding_residual(ws) || (iteration > 0 && residual <= tolerance)) return true;
+    // step and that multistep formulas amplify. Next to a singular position even rounding counts.
+    if (near_singular(ws)) {
+      if (residual <= tolerance && residual >= 0.5 * last) return true;
+    } else if (residual <= rounding_residual(ws) || (iteration > 0 && residual <= tolerance)) {
+      return true;
+    }
     if (!factored || residual > kFastConvergence * last) factor(system, ws);
     factored = true;
     last = residual;
@@ -132,7 +137,7 @@ void project_velocities(const System& system, bool& factored, State& state, Work
   for (int iteration = 0; iteration <= kMaxProjections; ++iteration) {
     if (iteration > 0) update_closed_kinematics(system, state, ws);
     const double residual = largest_kept(ws.Phi_rate, factored, ws);
-    if (residual <= rounding_rate(ws) || !(residual < last)) return;
+    if (!(residual < last) || (!near_singular(ws) && residual <= rounding_rate(ws))) return;
     if (!factored || residual > kFastConvergence * last) factor(system, ws);
     factored = true;
     last = residual;
@@ -224,6 +229,10 @@ std::vector<ClosureGap> closure_gaps(const System& system, const Workspace& ws) 
 }
 
 }  // namespace
+
+bool near_singular(const Workspace& ws) {
+  return ws.closure.least_sine < kNearSingular;
+}
 
 bool project(const System& system, double tolerance, State& state, Workspace& ws) {
   bool factored = false;

@@ -28,6 +28,9 @@ struct AssemblyReport {
 /// Closure residual to which states are projected during a run [m, rad].
 inline constexpr double kProjectionTolerance = 1e-12;
 
+/// Next to a singular position, where the rounding of the closures grows in the rates by the inverse square of the distance.
+bool near_singular(const Workspace& ws);
+
 /// Largest iteration count of a projection.
 inline constexpr int kMaxProjections = 20;
 

@@ -15,7 +15,6 @@ namespace wishbone {
 namespace {
 
 constexpr double kStandardGravity = 9.80665;  // [m/s^2]
-constexpr double kNearSingular = 0.2;         // least sine of the closure rows
 
 State sized_state(const System& system) {
   return {0, VectorX::Zero(system.nq), VectorX::Zero(system.nv), VectorX::Zero(system.nx)};
@@ -81,7 +80,7 @@ Tangents& FirstOrderSystem::tangents() {
 void FirstOrderSystem::calc_rate(double t, const Eigen::Ref<const VectorX>& y, Eigen::Ref<VectorX> y_rate) {
   unpack(t, y, state_, work_);
   // next to a singular position errors of the state grow without bound in the rates: these are taken on the closures
-  if (ws_.closure.least_sine < kNearSingular) {
+  if (near_singular(ws_)) {
     normalize_quaternions(system_, state_.q);
     wishbone::project(system_, kProjectionTolerance, state_, ws_);
   }

@@ -55,6 +55,9 @@ class Integrator {
   /// @throws NumericsError naming time and coordinate when the integrator gives up
   virtual Step step(double t_stop) = 0;
 
+  /// A singular position is expected at t: for methods that can choose where their stages fall.
+  virtual void pass_over(double /*t*/) {}
+
   /// State and work at any time within the last step.
   virtual void interpolate(double t, State& state, Work& work) = 0;
 

@@ -1,11 +1,12 @@
 #include "solver/singular_watch.h"
 
 #include <cmath>
+#include <limits>
 
 namespace wishbone {
 namespace {
 
-constexpr double kClose = 0.3;      // sine above which nothing is singular
+constexpr double kClose = 0.5;      // sine above which nothing is singular
 constexpr double kSameSlope = 0.3;  // deviation from the mirrored line, relative
 constexpr double kTouching = 1e-4;  // a step that ends here has landed on the position
 
@@ -24,6 +25,11 @@ void SingularWatch::observe(double t, const ClosureFactor& closure) {
     passages_.push_back({t, closure.least_row});
   before_ = last_;
   last_ = now;
+}
+
+double SingularWatch::expected() const {
+  if (last_.sine >= before_.sine || last_.sine > kClose) return std::numeric_limits<double>::infinity();
+  return last_.t + last_.sine * (last_.t - before_.t) / (before_.sine - last_.sine);
 }
 
 }  // namespace wishbone

@@ -18,6 +18,8 @@ class SingularWatch {
  public:
   /// After every accepted step.
   void observe(double t, const ClosureFactor& closure);
+  /// Time [s] at which the sine would reach zero if it went on falling as between the last two steps; infinite while it rises.
+  double expected() const;
   const std::vector<SingularPassage>& passages() const { return passages_; }
 
  private:

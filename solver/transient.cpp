@@ -49,6 +49,7 @@ class Run {
         t = step.t;
         summary.t_end = t;
         ++steps_;
+        watch_singular_positions(t);
         emit_until(t);
         check_limits(summary.integrator, t);
         check_progress(t);
@@ -110,11 +111,17 @@ class Run {
     ++summary.restarts;
   }
 
+  /// Before anything else is evaluated: the closures are still as they were at the end of the step.
+  void watch_singular_positions(double t) {
+    if (system_.n_rows == 0) return;
+    watch_.observe(t, ws_.closure);
+    integrator_->pass_over(watch_.expected());
+  }
+
   /// Looks after what is remembered from step to step: turns of angles, the choice of closure rows and of variables.
   void accept(double t, TransientSummary& summary) {
     if (counts_turns_) remember_angles(system_, state_, ws_);
     if (system_.n_rows == 0) return;
-    watch_.observe(t, ws_.closure);
     if (integrator_->outlived()) restart(t, summary);
   }
 
