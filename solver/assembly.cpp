@@ -22,7 +22,7 @@ constexpr double kAssemblyTolerance = 1e-13;      // [m, rad]
 constexpr double kContradictionTolerance = 1e-8;  // residual of a redundant row that still counts as closed
 constexpr int kMaxAssemblySteps = 200;
 constexpr double kMaxDamping = 1e12;
-constexpr double kNearSingular = 0.2;     // least sine of the closure rows
+constexpr double kNearSingular = 0.02;    // least sine of the closure rows
 constexpr double kFastConvergence = 0.1;  // of residuals, below which a factor serves again
 
 void update_closed_kinematics(const System& system, const State& state, Workspace& ws) {
@@ -94,12 +94,13 @@ int close_loops(const System& system, State& state, Workspace& ws) {
   return step;
 }
 
-/// What rounding of the markers' world positions leaves of Phi, far from the origin more than any fixed tolerance.
+/// What rounding of the markers' world positions leaves of Phi, far from the origin more than any fixed tolerance. Next to
+/// a singular position the last bit counts.
 double rounding_residual(const Workspace& ws) {
   double farthest = 0;
   for (const MarkerState& marker : ws.markers)
     farthest = std::max(farthest, marker.p_WM.cwiseAbs().maxCoeff());
-  return 8 * std::numeric_limits<double>::epsilon() * farthest;
+  return (near_singular(ws) ? 0.5 : 8) * std::numeric_limits<double>::epsilon() * farthest;
 }
 
 /// The same for Phi'.
@@ -107,7 +108,7 @@ double rounding_rate(const Workspace& ws) {
   double fastest = 0;
   for (const MarkerState& marker : ws.markers)
     fastest = std::max({fastest, marker.v_WM.cwiseAbs().maxCoeff(), marker.w_WM.cwiseAbs().maxCoeff()});
-  return 32 * std::numeric_limits<double>::epsilon() * fastest;
+  return (near_singular(ws) ? 1 : 32) * std::numeric_limits<double>::epsilon() * fastest;
 }
 
 bool project_positions(const System& system, double tolerance, bool& factored, State& state, Workspace& ws) {
@@ -117,12 +118,9 @@ bool project_positions(const System& system, double tolerance, bool& factored, S
     const double residual = largest_kept(ws.Phi, factored, ws);
     if (!std::isfinite(residual)) return false;
     // one correction takes the residual to rounding; stopping short of it would leave noise that does not shrink with the
-    // step and that multistep formulas amplify. Next to a singular position even rounding counts.
-    if (near_singular(ws)) {
-      if (residual <= tolerance && residual >= 0.5 * last) return true;
-    } else if (residual <= rounding_residual(ws) || (iteration > 0 && residual <= tolerance)) {
-      return true;
-    }
+    // step and that multistep formulas amplify
+    if (residual <= rounding_residual(ws)) return true;
+    if (iteration > 0 && residual <= tolerance && (!near_singular(ws) || residual >= 0.5 * last)) return true;
     if (!factored || residual > kFastConvergence * last) factor(system, ws);
     factored = true;
     last = residual;
@@ -137,7 +135,7 @@ void project_velocities(const System& system, bool& factored, State& state, Work
   for (int iteration = 0; iteration <= kMaxProjections; ++iteration) {
     if (iteration > 0) update_closed_kinematics(system, state, ws);
     const double residual = largest_kept(ws.Phi_rate, factored, ws);
-    if (!(residual < last) || (!near_singular(ws) && residual <= rounding_rate(ws))) return;
+    if (residual <= rounding_rate(ws) || !(residual < last)) return;
     if (!factored || residual > kFastConvergence * last) factor(system, ws);
     factored = true;
     last = residual;
