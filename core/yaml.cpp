@@ -58,8 +58,8 @@ Value::Value(const YamlNode::Entry& entry, std::string path)
 std::string Value::shown() const {
   if (node_->kind != Kind::kScalar) return std::string();
   constexpr std::size_t kLongest = 80;
-  const std::string text =
-      node_->text.size() > kLongest ? node_->text.substr(0, kLongest) + "..." : node_->text;
+  std::string text = node_->text.substr(0, kLongest);
+  if (node_->text.size() > kLongest) text += "...";
   return node_->origin.empty() ? fmt::format("'{}'", text)
                                : fmt::format("'{}' from '{}'", text, node_->origin);
 }

@@ -14,8 +14,8 @@ namespace wishbone {
 struct Stop {
   double stiffness = 0;   ///< k > 0 [N m/rad^n or N/m^n]
   double exponent = 1.5;  ///< n >= 1
-  double damping =
-      0;  ///< beta >= 0 [s/rad or s/m]; restitution is about 1 - (2/3) beta times the speed of impact
+  /// beta >= 0 [s/rad or s/m]; restitution is about 1 - (2/3) beta times the speed of impact.
+  double damping = 0;
 };
 
 /// Stops at a lower and an upper limit, or one of them, of a joint's coordinate u:

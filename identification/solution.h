@@ -12,8 +12,8 @@ struct Solution {
   VectorX residual;        ///< relative bound on the error of lambda; NaN: none
   double kept_lambda = 0;  ///< stiffest mode of the set that they were found in [rad2/s2]
   MatrixX coefficients;    ///< measured modes x identified ones; empty where a mode is no combination of them
-  double support_ratio =
-      0;  ///< stiffest support over stiffest kept mode, lambda(M^-1 K_s) / lambda_m; 0: complete set
+  /// Stiffest support over stiffest kept mode, lambda(M^-1 K_s) / lambda_m; 0: complete set.
+  double support_ratio = 0;
   int lost_modes = 0;
   std::optional<CorrectedModel> corrected;
 };

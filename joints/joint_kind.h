@@ -26,8 +26,8 @@ enum class JointKind {
 struct JointCoordinateKind {
   std::string_view name;  ///< "angle", "travel" ...
   bool is_angle = true;   ///< [rad] rather than [m]
-  bool measurable =
-      true;  ///< whether `gauge` measures it, so that forces, couplings and drivers can act on it
+  /// Whether `gauge` measures it, so that forces, couplings and drivers can act on it.
+  bool measurable = true;
   Gauge gauge;
 };
 

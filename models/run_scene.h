@@ -14,8 +14,8 @@ struct RunRequest {
   std::string output_path;
   std::vector<std::string> overrides;      ///< "name=value" for the scene's parameters, kept with the results
   std::function<bool(double)> keep_going;  ///< asked with the time after every step; false interrupts the run
-  std::vector<std::string> command_line =
-      {};  ///< what was said instead of the scene's analysis, as written; kept too
+  /// What was said instead of the scene's analysis, as written; kept too.
+  std::vector<std::string> command_line = {};
 };
 
 /// Where a run with these results keeps the modes that it identified for a body: OUT.BODY_modes.h5 beside OUT.h5.

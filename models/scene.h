@@ -90,9 +90,9 @@ struct Scene {
     JointKind kind = JointKind::fixed;
     std::optional<bool> cut;  ///< whether it closes a loop; empty: the program chooses
     Point first, second;      ///< coincident in the design pose
-    Matrix3 R_DJ =
-        Matrix3::Identity();  ///< axes of the joint (joints/joint_kind.h); identity where it has none
-    double pitch = 0;         ///< of a screw [m/rad]
+    /// Axes of the joint (joints/joint_kind.h); identity where it has none.
+    Matrix3 R_DJ = Matrix3::Identity();
+    double pitch = 0;                     ///< of a screw [m/rad]
     std::vector<double> position, speed;  ///< initial coordinates and speeds; empty: zero
     std::vector<int> motion;              ///< of each coordinate, index into `motions` or -1; empty: none
     double weight = 1;  ///< factor on its share of the metric in which the initial pose is assembled

@@ -14,8 +14,8 @@ struct BodyMotionT {
   Vector3T<T> p_PB = Vector3T<T>::Zero();  ///< from the parent's origin to Bo
   Vector3T<T> p_MB = Vector3T<T>::Zero();  ///< from the outboard joint frame's origin to Bo
   Vector6T<T> V = Vector6T<T>::Zero();     ///< V_WB
-  Vector6T<T> c =
-      Vector6T<T>::Zero();  ///< A_WB - shift(A_WP) - H v': velocity products and prescribed motion
+  /// A_WB - shift(A_WP) - H v': velocity products and prescribed motion.
+  Vector6T<T> c = Vector6T<T>::Zero();
   Vector6T<T> A = Vector6T<T>::Zero();          ///< A_WB
   Vector6T<T> F_applied = Vector6T<T>::Zero();  ///< sum of applied wrenches, gravity included, about Bo
   Vector6T<T> F_joint = Vector6T<T>::Zero();    ///< that the inboard joint exerts on the body, about Bo
@@ -46,8 +46,8 @@ struct Evaluation {
   explicit Evaluation(const System& system);
 
   std::vector<BodyMotionT<T>> bodies;
-  std::vector<Vector6T<T>>
-      H;  ///< hinge matrices: the velocity of the joint's body for each unit speed of the joint
+  /// Hinge matrices: the velocity of the joint's body for each unit speed of the joint.
+  std::vector<Vector6T<T>> H;
   std::vector<FlexibleMotionT<T>> flexible;
   std::vector<MarkerStateT<T>> markers;
   std::vector<MarkerAccelerationT<T>> marker_accelerations;  ///< of the closures' markers

@@ -20,10 +20,11 @@ enum class Form {
 
 enum class Method {
   automatic,
-  adams,  ///< CVODE Adams-Moulton, functional iteration; index1: rates are taken at the projected state, since CVODE projects with
-          ///< bdf alone
-  bdf,    ///< CVODE BDF, Newton; with form ggl: IDA
-  erk,    ///< ARKODE explicit Runge-Kutta
+  /// CVODE Adams-Moulton, functional iteration; with index1 rates are taken at the projected state, since CVODE projects
+  /// with bdf alone
+  adams,
+  bdf,  ///< CVODE BDF, Newton; with form ggl: IDA
+  erk,  ///< ARKODE explicit Runge-Kutta
 };
 
 /// Options of a transient analysis.
@@ -55,7 +56,8 @@ class Integrator {
   /// @throws NumericsError naming time and coordinate when the integrator gives up
   virtual Step step(double t_stop) = 0;
 
-  /// A singular position is expected at t: for methods that can choose where their stages fall.
+  /// A singular position is expected at t (infinite: none). Methods that can choose where their stages fall keep them clear
+  /// of it; others go on as they are.
   virtual void pass_over(double /*t*/) {}
 
   /// State and work at any time within the last step.

@@ -48,8 +48,8 @@ struct FlexibleBody {
   ModalBody modal;
   int body = 0;                       ///< the tree body it belongs to
   int z_start = 0, z_rate_start = 0;  ///< where z and z' stand in q and v
-  bool carries_joints =
-      false;  ///< tree joints hang on its nodes, so its modal mass matrix is not the identity
+  /// Tree joints hang on its nodes, so its modal mass matrix is not the identity.
+  bool carries_joints = false;
 };
 
 /// A marker of the compiled scene: fixed to a body, or to an interface node of a flexible one.
@@ -63,8 +63,8 @@ struct Marker {
 struct Closure {
   std::string name;
   CutJoint joint;
-  std::vector<MarkerIndex>
-      markers;  ///< participants: on the first- and the second-named body, or those of a coupling
+  /// Participants: on the first- and the second-named body, or those of a coupling.
+  std::vector<MarkerIndex> markers;
   int row_start = 0, rows = 0;
   int column_start = 0;   ///< of its unit wrenches in Evaluation::W: `rows` columns for each participant
   int gauge_start = 0;    ///< of its gauges in Memory::closure_angles
@@ -93,8 +93,8 @@ struct System {
   std::vector<Marker> markers;
   std::vector<Closure> closures;
   ForceElements forces;
-  std::vector<MotionSignal>
-      signals;  ///< variables 1, 2, ... of the functions of forces; variable 0 is the time
+  /// Variables 1, 2, ... of the functions of forces; variable 0 is the time.
+  std::vector<MotionSignal> signals;
   std::vector<MeasuredCoordinate> measured;
 
   /// Factors on the speeds' shares in the metric in which the initial pose is assembled; empty: all one.

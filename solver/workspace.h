@@ -17,9 +17,9 @@ struct ArticulatedBody {
 
 /// Modal coordinates of one flexible body while they are condensed.
 struct CondensedModes {
-  MatrixX
-      M_zz;  ///< modal mass: identity plus what hangs on the nodes; then its Cholesky factor (lower triangle). Empty when
-  ///< no joint hangs on the nodes
+  /// Modal mass: identity plus what hangs on the nodes; then its Cholesky factor (lower triangle). Empty when no joint
+  /// hangs on the nodes.
+  MatrixX M_zz;
   MatrixX Y;       ///< L_z^-1 M_zr, m x 6
   Matrix3X P_Psi;  ///< scratch: a child's P+ times the shapes of its node
 };
@@ -32,11 +32,11 @@ struct ClosureFactor {
   Eigen::ColPivHouseholderQR<MatrixX> qr;  ///< of U, where Cholesky would lose too many digits
   bool orthogonal = false;                 ///< whether qr is in use
   int rank = 0;  ///< rows that take part, all of them unless they have become dependent
-  double least_sine =
-      1;  ///< smallest length that a row has orthogonal to those before it, by its scale: zero where the rank is lost
+  /// Smallest length that a row has orthogonal to those before it, by its scale: zero where the rank is lost.
+  double least_sine = 1;
   int least_row = -1;  ///< the row it belongs to
-  VectorX
-      scales;  ///< of all rows, what their lengths (columns of U) are measured by; empty: the lengths themselves
+  /// Of all rows, what their lengths (columns of U) are measured by; empty: the lengths themselves.
+  VectorX scales;
   VectorX lengths;  ///< scales of the kept rows
   MatrixX scaled;   ///< U with columns divided by them
   VectorX scratch;

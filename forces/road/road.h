@@ -20,8 +20,8 @@ struct RoadPointT {
   T height = T(0);   ///< H [m]
   T slope_x = T(0);  ///< dH/dx
   T slope_y = T(0);  ///< dH/dy
-  Vector3T<T> uz =
-      Vector3T<T>::UnitZ();  ///< unit normal, world components, upward: (-dH/dx, -dH/dy, 1) normalised
+  /// Unit normal, world components, upward: (-dH/dx, -dH/dy, 1) normalised.
+  Vector3T<T> uz = Vector3T<T>::UnitZ();
 };
 using RoadPoint = RoadPointT<double>;
 

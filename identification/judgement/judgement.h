@@ -14,8 +14,8 @@ struct ReferenceComparison {
   std::string name;      ///< of the reference
   VectorX reference_hz;  ///< k, frequencies of the reference
   MatrixX mac;           ///< m x k, identified modes against the reference over the freedoms of both
-  std::vector<int>
-      partner;  ///< m, reference mode of largest MAC with each identified mode; -1: none of at least 0.4
+  /// m, reference mode of largest MAC with each identified mode; -1: none of at least 0.4.
+  std::vector<int> partner;
   VectorX frequency_error;  ///< m, f / f_partner - 1; NaN without partner
 };
 
@@ -23,8 +23,8 @@ struct ReferenceComparison {
 struct Judgement {
   VectorX input_hz;      ///< frequencies of the modes that it started from
   VectorX frequency_hz;  ///< m, identified
-  VectorX
-      residual;  ///< m, bound on |lambda - lambda_true| / lambda by what the kept set leaves; NaN: no bound
+  /// m, bound on |lambda - lambda_true| / lambda by what the kept set leaves; NaN: no bound.
+  VectorX residual;
   VectorX error_estimate;    ///< m, estimated relative error of the frequency by what was left out; NaN: none
   VectorX frequency_std_hz;  ///< m, standard deviation under the given measurement noise; empty: none given
   MatrixX auto_mac;          ///< m x m, identified modes among each other

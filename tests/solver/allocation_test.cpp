@@ -102,6 +102,12 @@ TEST(Allocation, NoneInEvaluatingEveryJointAndEveryForce) {
   }
 }
 
+TEST(Allocation, NoneInSolvingForHundredsOfClosureRows) {
+  const Built m = testing::four_bars(100, RevoluteClosure{}, 6);
+  ASSERT_EQ(testing::with_independent_rows(m).closure.kept.size(), 200u);
+  expect_no_allocation(m);
+}
+
 TEST(Allocation, NoneInCountingTurns) {
   const Built m = testing::every_part_at_once();
   Workspace ws = testing::with_independent_rows(m);
