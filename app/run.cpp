@@ -148,7 +148,7 @@ ExitCode run(const Options& options) {
   const std::vector<std::string> inputs = input_files(options.scene, scene);
   check_output(options.output, inputs);
   for (const Scene::Body& body : scene.bodies)
-    if (body.form == Scene::BodyForm::kModal && body.flexible->identification)
+    if (body.is_flexible() && body.flexible->identification)
       check_output(identified_modes_path(options.output, body.name), inputs);
   CompiledScene compiled = compile(scene);
   print_warnings(compiled);

@@ -43,7 +43,7 @@ Matrix3T<T> inertia(const Eigen::Matrix<T, Eigen::Dynamic, 3>& b) {
 }
 
 /// Interface nodes first, the others after them in their own order.
-std::vector<int> interface_first(const ModeSet& modes, const std::vector<int>& interface_node_ids) {
+std::vector<int> interface_first(const ShapeSet& modes, const std::vector<int>& interface_node_ids) {
   std::vector<int> order;
   std::vector<bool> taken(modes.node_count(), false);
   for (int id : interface_node_ids) {
@@ -60,8 +60,8 @@ std::vector<int> interface_first(const ModeSet& modes, const std::vector<int>& i
 }
 
 /// Rows sqrt(m_i) [s_x s_y s_z | Psi_x | Psi_y | Psi_z] of the given nodes, p x 3 (m + 1).
-MatrixX mass_weighted_rows(const ModeSet& modes, std::span<const int> nodes) {
-  const int m = modes.mode_count();
+MatrixX mass_weighted_rows(const ShapeSet& modes, std::span<const int> nodes) {
+  const int m = modes.shape_count();
   MatrixX rows(nodes.size(), 3 * (m + 1));
   for (Eigen::Index r = 0; r < rows.rows(); ++r) {
     const int i = nodes[r];
@@ -82,23 +82,29 @@ MatrixX equivalent_rows(const MatrixX& rows) {
 
 }  // namespace
 
-ModalBody::ModalBody(ModeSet modes, const std::vector<int>& interface_node_ids) : modes_(std::move(modes)) {
-  modes_.validate();
-  mass_ = modes_.mass();
-  damping_ = 2 * modes_.damping_ratio.cwiseProduct(modes_.omega);
-  stiffness_ = modes_.omega.cwiseAbs2();
+ModalBody::ModalBody(const ModeSet& modes, const std::vector<int>& interface_node_ids, InertiaTerms terms)
+    : ModalBody((modes.validate(), shapes_of(modes)), interface_node_ids, terms) {}
 
-  const std::vector<int> order = interface_first(modes_, interface_node_ids);
+ModalBody::ModalBody(ShapeSet set, const std::vector<int>& interface_node_ids, InertiaTerms terms)
+    : set_(std::move(set)), terms_(terms) {
+  set_.validate();
+  mass_ = set_.node_mass.sum();
+  if (!mean_axes()) {
+    P_ = Matrix3X::Zero(3, mode_count());
+    for (int i = 0; i < set_.node_count(); ++i) P_ += set_.node_mass[i] * set_.shapes.middleRows<3>(3 * i);
+  }
+
+  const std::vector<int> order = interface_first(set_, interface_node_ids);
   const std::span<const int> nodes(order);
   const int k = static_cast<int>(interface_node_ids.size()), m = mode_count();
   inverse_root_mass_.resize(k);
   for (int i = 0; i < k; ++i) {
-    interface_shapes_.push_back(modes_.shapes.middleRows<3>(3 * order[i]));
-    inverse_root_mass_[i] = 1 / std::sqrt(modes_.node_mass[order[i]]);
+    interface_shapes_.push_back(set_.shapes.middleRows<3>(3 * order[i]));
+    inverse_root_mass_[i] = 1 / std::sqrt(set_.node_mass[order[i]]);
   }
 
-  const MatrixX own = mass_weighted_rows(modes_, nodes.first(k));
-  const MatrixX others = equivalent_rows(mass_weighted_rows(modes_, nodes.subspan(k)));
+  const MatrixX own = mass_weighted_rows(set_, nodes.first(k));
+  const MatrixX others = equivalent_rows(mass_weighted_rows(set_, nodes.subspan(k)));
   MatrixX rows(own.rows() + others.rows(), own.cols());
   rows << own, others;
   s_ = rows.leftCols<3>();
@@ -130,9 +136,12 @@ void ModalBody::set_position(const T* z, ModalBodyStateT<T>& state) const {
   state.b = s_ + state.delta;
   state.interface_b = (inverse_root_mass_.asDiagonal() * state.b.topRows(k)).transpose();
   state.J = inertia(state.b);
-  // S = sum delta_i x Psi_i (sum s_i x Psi_i vanishes in mean axes)
+  if (!mean_axes()) state.c.noalias() = P_ * state.z;  // sum m_i s_i = 0
+  if (terms_ == InertiaTerms::source) return;
+  // S = sum b_i x Psi_i; sum s_i x Psi_i vanishes with mean axes
+  const auto& moved = mean_axes() ? state.delta : state.b;
   const auto X = shapes_.topRows(p), Y = shapes_.middleRows(p, p), Z = shapes_.bottomRows(p);
-  const auto dx = state.delta.col(0), dy = state.delta.col(1), dz = state.delta.col(2);
+  const auto dx = moved.col(0), dy = moved.col(1), dz = moved.col(2);
   state.S.row(0).noalias() = dy.transpose() * Z;
   state.S.row(0).noalias() -= dz.transpose() * Y;
   state.S.row(1).noalias() = dz.transpose() * X;
@@ -153,40 +162,65 @@ void ModalBody::set_velocity(const Vector3T<T>& w_B, const T* zdot, ModalBodySta
   const Matrix3T<T> w = skew(w_B), ww = w * w;
   state.bias.noalias() = state.b.lazyProduct(ww.transpose());
   state.bias.noalias() += state.delta_dot.lazyProduct(2.0 * w.transpose());
-  // t = sum b_i x bias_i,  h = sum Psi_i^T bias_i + 2 zeta omega z' + omega^2 z
+  // t = sum b_i x bias_i,  h = sum Psi_i^T bias_i + C z' + K z
   state.t_bias = sum_of_cross_products(state.b, state.bias);
   state.h_bias.noalias() = shapes_.transpose() * stacked(std::as_const(state.bias));
-  state.h_bias += damping_.cwiseProduct(state.zdot) + stiffness_.cwiseProduct(state.z);
+  add_product(set_.damping, state.zdot, state.h_bias);
+  add_product(set_.stiffness, state.z, state.h_bias);
+  if (!mean_axes()) {
+    const Vector3T<T> c_rate = P_ * state.zdot;
+    state.f_bias = ww * state.c + 2.0 * w_B.cross(c_rate);
+  }
 }
 
-double ModalBody::kinetic_energy(const Vector3& v_WBo, const ModalBodyState& state) const {
-  // sum m_i |w x b_i + delta_i'|^2 = w.J w + 2 w.S z' + z'.z'
-  const Vector3 Sz = state.S * state.zdot;
-  return 0.5 * (mass_ * v_WBo.squaredNorm() + state.w_B.dot(state.J * state.w_B + 2 * Sz) +
-                state.zdot.squaredNorm());
+template <class T>
+void ModalBody::add_product(const MatrixX& matrix, const VectorXT<T>& z, VectorXT<T>& sum) const {
+  if (matrix.cols() == 1)
+    sum += matrix.col(0).cwiseProduct(z);
+  else
+    sum.noalias() += matrix * z;
+}
+
+double ModalBody::kinetic_energy(const Vector3& v_WBo_B, const ModalBodyState& state) const {
+  // sum m_i |w x b_i + delta_i'|^2, point by point: S is not there with the terms of the source
+  const auto u = state.delta_dot - state.b.lazyProduct(skew(state.w_B));
+  return 0.5 * u.squaredNorm() + v_WBo_B.dot(linear_momentum(v_WBo_B, state)) -
+         0.5 * mass_ * v_WBo_B.squaredNorm();
 }
 
 double ModalBody::elastic_energy(const ModalBodyState& state) const {
-  return 0.5 * stiffness_.dot(state.z.cwiseAbs2());
+  if (set_.stiffness.cols() == 1) return 0.5 * set_.stiffness.col(0).dot(state.z.cwiseAbs2());
+  return 0.5 * state.z.dot(set_.stiffness.lazyProduct(state.z));
 }
 
 double ModalBody::mode_energy(int mode, const ModalBodyState& state) const {
-  return 0.5 * (state.zdot[mode] * state.zdot[mode] + stiffness_[mode] * state.z[mode] * state.z[mode]);
+  return 0.5 *
+         (state.zdot[mode] * state.zdot[mode] + set_.stiffness(mode, 0) * state.z[mode] * state.z[mode]);
 }
 
 template <class T>
 T ModalBody::damping_power(const ModalBodyStateT<T>& state) const {
   T power(0);
-  for (Eigen::Index j = 0; j < damping_.size(); ++j) power += damping_[j] * state.zdot[j] * state.zdot[j];
+  for (Eigen::Index k = 0; k < set_.damping.cols(); ++k)
+    for (Eigen::Index j = 0; j < set_.damping.rows(); ++j)
+      power += set_.damping(j, k) * state.zdot[j] * state.zdot[set_.damping.cols() == 1 ? j : k];
   return power;
 }
 
-Vector3 ModalBody::angular_momentum(const ModalBodyState& state) const {
-  return state.J * state.w_B + state.S * state.zdot;
+Vector3 ModalBody::linear_momentum(const Vector3& v_WBo_B, const ModalBodyState& state) const {
+  // m v + w x c + P z'
+  Vector3 p = mass_ * v_WBo_B;
+  if (!mean_axes()) p += state.w_B.cross(state.c) + P_ * state.zdot;
+  return p;
+}
+
+Vector3 ModalBody::angular_momentum(const Vector3& v_WBo_B, const ModalBodyState& state) const {
+  // c x v + J w + sum m_i b_i x delta_i'
+  return state.c.cross(v_WBo_B) + state.J * state.w_B + sum_of_cross_products(state.b, state.delta_dot);
 }
 
 Vector3 ModalBody::deflection(int node_id, const ModalBodyState& state) const {
-  return modes_.shapes.middleRows<3>(3 * modes_.node_index(node_id)) * state.z;
+  return set_.shapes.middleRows<3>(3 * set_.node_index(node_id)) * state.z;
 }
 
 template ModalBodyStateT<double> ModalBody::make_state<double>() const;

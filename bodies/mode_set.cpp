@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
+#include "bodies/shape_set.h"
 #include "core/error.h"
 
 namespace wishbone {
@@ -17,7 +17,6 @@ namespace {
 
 void check_sizes(const ModeSet& set) {
   const Eigen::Index n = set.node_count(), m = set.mode_count();
-  if (n < 3) reject("a flexible body needs at least three nodes", fmt::format("{}", n), "give more nodes");
   const bool fits = set.node_mass.size() == n && set.node_position.cols() == n &&
                     set.shapes.rows() == 3 * n && set.shapes.cols() == m && set.damping_ratio.size() == m;
   if (!fits)
@@ -28,16 +27,9 @@ void check_sizes(const ModeSet& set) {
         fmt::format("{} masses, {} positions, {} x {} shapes, {} damping ratios", set.node_mass.size(),
                     set.node_position.cols(), set.shapes.rows(), set.shapes.cols(), set.damping_ratio.size()),
         "give every node and every mode its row and column");
-  if (static_cast<Eigen::Index>(std::set<int>(set.node_ids.begin(), set.node_ids.end()).size()) != n)
-    reject("node ids must differ from each other", "a repeated id", "number each node once");
 }
 
-void check_values(const ModeSet& set) {
-  for (int i = 0; i < set.node_count(); ++i)
-    if (!(set.node_mass[i] > 0))
-      reject(fmt::format("the mass of node {} must be positive", set.node_ids[i]),
-             fmt::format("{:g} kg", set.node_mass[i]),
-             "leave massless nodes out, or lump the mass so that every node has its share");
+void check_frequencies(const ModeSet& set) {
   for (int j = 0; j < set.mode_count(); ++j) {
     if (!(set.omega[j] > 0))
       reject(fmt::format("the frequency of elastic mode {} must be positive", j + 1),
@@ -50,34 +42,6 @@ void check_values(const ModeSet& set) {
       reject(fmt::format("the damping ratio of mode {} must not be negative", j + 1),
              fmt::format("{:g}", set.damping_ratio[j]), "give zero for an undamped mode");
   }
-  if (!set.shapes.allFinite() || !set.node_position.allFinite())
-    reject("shapes and positions must be finite numbers", "an infinity or not a number",
-           "check how they were read");
-}
-
-void check_orthogonality(const ModeSet& set) {
-  constexpr double tolerance = ModeSet::kOrthogonalityTolerance;
-  const Vector3 centre = set.node_position * set.node_mass / set.mass();
-  const double gyration_radius = std::sqrt(set.inertia().trace() / set.mass());
-  if (!(centre.norm() <= tolerance * gyration_radius))
-    reject("node positions must be taken about the mass centre",
-           fmt::format("mass centre at ({:g}, {:g}, {:g}) m", centre.x(), centre.y(), centre.z()),
-           "subtract the mass centre from every position");
-
-  const VectorX mass_of_row = set.node_mass.transpose().replicate(3, 1).reshaped();
-  const MatrixX M_shapes = mass_of_row.asDiagonal() * set.shapes;
-  const int m = set.mode_count();
-  if (m == 0) return;
-  const double self = (set.shapes.transpose() * M_shapes - MatrixX::Identity(m, m)).cwiseAbs().maxCoeff();
-  if (!(self <= tolerance))
-    reject("modes must be mass-orthonormal, Psi^T M Psi = 1", fmt::format("largest error {:.3g}", self),
-           "divide each mode by the root of its modal mass and orthogonalise modes of equal frequency");
-  const double rigid =
-      (rigid_body_modes(set.node_mass, set.node_position).transpose() * M_shapes).cwiseAbs().maxCoeff();
-  if (!(rigid <= tolerance))
-    reject("elastic modes must be mass-orthogonal to rigid-body motion",
-           fmt::format("largest product {:.3g}", rigid),
-           "remove the rigid-body part of each mode with the lumped masses of this set");
 }
 
 }  // namespace
@@ -133,8 +97,8 @@ ModeSet ModeSet::lowest(int count) const {
 
 void ModeSet::validate() const {
   check_sizes(*this);
-  check_values(*this);
-  check_orthogonality(*this);
+  check_frequencies(*this);
+  shapes_of(*this).validate();
 }
 
 }  // namespace wishbone

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "bodies/nodal_shapes.h"
 #include "core/yaml.h"
 #include "identification/elements/hexahedral_mesh.h"
 #include "identification/free_free_modes.h"
@@ -66,10 +67,25 @@ class Compiler {
 
   void add_body(const Scene::Body& body) {
     const Pose X_WB = scene_.X_WD * body.X_DB;
-    const int index = body.form == Scene::BodyForm::kModal
-                          ? builder_.add_flexible_body(body.name, modes_of(body), X_WB)
+    const int index = body.is_flexible()
+                          ? builder_.add_flexible_body(body.name, shapes_of(body), X_WB, terms_of(body))
                           : builder_.add_body(body.name, body.mass, body.inertia, X_WB);
     builder_.set_velocity(index, body.v_WBo, body.w_WB_B);
+  }
+
+  static InertiaTerms terms_of(const Scene::Body& body) {
+    return body.flexible->source_terms ? InertiaTerms::source : InertiaTerms::consistent;
+  }
+
+  ShapeSet shapes_of(const Scene::Body& body) {
+    const ModeSet modes = modes_of(body);
+    return within(body.where, [&] {
+      modes.validate();
+      if (body.form == Scene::BodyForm::kModal) return wishbone::shapes_of(modes);
+      const NodalModel model = nodal_model(modes);
+      const auto& axes = body.flexible->fixed_axes;
+      return axes ? fixed_axis_shapes(model, *axes) : mean_axis_shapes(model);
+    });
   }
 
   ModeSet modes_of(const Scene::Body& body) {

@@ -28,8 +28,7 @@ void list_parts(const System& system, Plan& plan) {
   sort_into(plan.elastic_coordinates > 0, fmt::format("elastic terms of {} modes", plan.elastic_coordinates),
             "elastic terms: no flexible body", plan);
   bool damped = false;
-  for (const FlexibleBody& body : system.flexible)
-    damped = damped || body.modal.modes().damping_ratio.maxCoeff() > 0;
+  for (const FlexibleBody& body : system.flexible) damped = damped || body.modal.set().damped();
   if (plan.elastic_coordinates > 0)
     sort_into(damped, "structural damping", "structural damping: every damping ratio is zero", plan);
   sort_into(!plan.closures.empty(), fmt::format("closure solver for {} rows", plan.closure_rows),

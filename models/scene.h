@@ -38,6 +38,9 @@ struct Scene {
     double density = 0;                 ///< [kg/m3]
   };
 
+  /// How the axes of a flexible body follow it: mean axes, or fixed on three of its nodes.
+  using FixedAxes = std::array<int, 3>;
+
   /// Nodes of a body and where its elastic modes come from: the block, or an identification.
   struct Flexible {
     std::vector<int> node_ids;
@@ -47,19 +50,23 @@ struct Scene {
     int modes = 0;                                             ///< lowest elastic modes kept of the block's
     std::vector<double> damping;  ///< damping ratio of each kept mode; empty: as identified, or one for all
     std::optional<double> identified_damping;  ///< one damping ratio for all identified modes
+    std::optional<FixedAxes> fixed_axes;       ///< node ids; empty: mean axes
+    bool source_terms = false;                 ///< inertial coupling as in the source, not all that there is
   };
 
-  enum class BodyForm { kRigid, kModal };
+  enum class BodyForm { kRigid, kModal, kNodal };
   struct Body {
     std::string name;
     BodyForm form = BodyForm::kRigid;
-    double mass = 0;  ///< [kg]; of a modal body: as written, unused (its nodes have their own)
-    Matrix3 inertia = Matrix3::Zero();  ///< about the mass centre, body axes [kg m2]; modal: as for `mass`
+    double mass = 0;  ///< [kg]; of a flexible body: as written, unused (its nodes have their own)
+    Matrix3 inertia = Matrix3::Zero();  ///< about the mass centre, body axes [kg m2]; flexible: as for `mass`
     Pose X_DB;                          ///< design pose; Bo is the mass centre [m]
     Vector3 v_WBo = Vector3::Zero();    ///< initial velocity, inertial axes [m/s]; of free bodies
     Vector3 w_WB_B = Vector3::Zero();   ///< initial angular velocity, body axes [rad/s]; of free bodies
-    std::optional<Flexible> flexible;   ///< always there when modal; gives a rigid body its nodes
+    std::optional<Flexible> flexible;   ///< always there unless rigid; gives a rigid body its nodes
     Source where;
+
+    bool is_flexible() const { return form != BodyForm::kRigid; }
   };
 
   /// Force laws on one coordinate of a joint [rad or m].

@@ -8,8 +8,8 @@ namespace wishbone {
 /// What a point of a scene takes hold of: a flexible body at its node, a rigid one (whose nodes are but points of it) as a
 /// whole.
 inline Attachment attachment_of(const Scene& scene, const Scene::Point& point) {
-  const bool modal = point.body != Scene::kGround && scene.bodies[point.body].form == Scene::BodyForm::kModal;
-  return {point.body, modal ? point.node : 0};
+  const bool flexible = point.body != Scene::kGround && scene.bodies[point.body].is_flexible();
+  return {point.body, flexible ? point.node : 0};
 }
 
 }  // namespace wishbone

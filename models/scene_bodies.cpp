@@ -80,8 +80,25 @@ void take_identified_damping(const Value& value, Scene::Flexible& flexible) {
     value.refuse("there are no damping ratios in the list", "remove the key to keep those of the modes");
 }
 
-Scene::Flexible read_flexible(const Value& value, Scene& scene) {
-  const Mapping keys(value, {"block", "material", "modes", "damping"});
+/// `mean`, or {fixed: [o, i, j]}.
+std::optional<Scene::FixedAxes> read_axes(const Value& value, const std::vector<int>& node_ids) {
+  if (value.is_word("mean")) return std::nullopt;
+  const Mapping keys(value, {"fixed"});
+  const Value fixed = keys.required("fixed");
+  const std::vector<Value> items = fixed.list();
+  if (items.size() != 3)
+    fixed.refuse("axes are fixed on three nodes",
+                 "name the node of all three directions, one along a line, one off it");
+  Scene::FixedAxes nodes{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    nodes[k] = items[k].integer(1, std::numeric_limits<int>::max());
+    if (std::find(node_ids.begin(), node_ids.end(), nodes[k]) == node_ids.end())
+      items[k].refuse("the body has no such node", "name one of its nodes");
+  }
+  return nodes;
+}
+
+Scene::Flexible read_shapes(const Mapping& keys, Scene& scene) {
   Scene::Flexible flexible;
   const Value modes = keys.required("modes");
   if (!modes.is_mapping() || keys.has("block"))
@@ -96,6 +113,16 @@ Scene::Flexible read_flexible(const Value& value, Scene& scene) {
   return flexible;
 }
 
+Scene::Flexible read_flexible(const Value& value, Scene& scene) {
+  const Mapping keys(value, {"block", "material", "modes", "damping", "axes", "inertia"});
+  Scene::Flexible flexible = read_shapes(keys, scene);
+  if (const auto axes = keys.optional("axes")) flexible.fixed_axes = read_axes(*axes, flexible.node_ids);
+  if (const auto inertia = keys.optional("inertia"))
+    flexible.source_terms =
+        inertia->choice<bool>({{"consistent", false}, {"source", true}}, "the inertial couplings of a body");
+  return flexible;
+}
+
 Scene::Body read_body_keys(const std::string& name, const Value& value, Scene& scene) {
   const Mapping keys(value, {"mass", "inertia", "position", "orientation", "velocity", "angular_velocity",
                              "form", "flexible"});
@@ -103,17 +130,23 @@ Scene::Body read_body_keys(const std::string& name, const Value& value, Scene& s
   body.name = name;
   body.where = value.where();
   if (const auto form = keys.optional("form")) {
-    body.form = form->choice<Scene::BodyForm>(
-        {{"rigid", Scene::BodyForm::kRigid}, {"modal", Scene::BodyForm::kModal}}, "the forms of a body");
+    body.form = form->choice<Scene::BodyForm>({{"rigid", Scene::BodyForm::kRigid},
+                                               {"modal", Scene::BodyForm::kModal},
+                                               {"nodal", Scene::BodyForm::kNodal}},
+                                              "the forms of a body");
   }
   if (const auto flexible = keys.optional("flexible")) body.flexible = read_flexible(*flexible, scene);
-  const bool modal = body.form == Scene::BodyForm::kModal;
-  if (modal && !body.flexible) {
-    keys.refuse("a modal body needs the key 'flexible'",
+  if (body.is_flexible() && !body.flexible) {
+    keys.refuse(fmt::format("a {} body needs the key 'flexible'",
+                            body.form == Scene::BodyForm::kModal ? "modal" : "nodal"),
                 "add 'flexible: {block: ..., material: ..., modes: ...}'");
   }
-  if (!modal || keys.has("mass")) body.mass = keys.required("mass").positive(kMass);
-  if (!modal || keys.has("inertia")) body.inertia = read_inertia(keys.required("inertia"));
+  if (body.form == Scene::BodyForm::kModal && body.flexible->fixed_axes) {
+    keys.refuse("the axes of a modal body are mean axes, for its modes are those of the free body",
+                "write 'form: nodal', or remove 'axes'");
+  }
+  if (!body.is_flexible() || keys.has("mass")) body.mass = keys.required("mass").positive(kMass);
+  if (!body.is_flexible() || keys.has("inertia")) body.inertia = read_inertia(keys.required("inertia"));
 
   body.X_DB.p = keys.required("position").vector3(kLength);
   if (const auto orientation = keys.optional("orientation")) {

@@ -74,7 +74,7 @@ Scene::Point read_point(const Scene& scene, int body, const std::optional<Value>
     const int number = read_node(*node, holder);
     return {body, number, node_place(holder, number)};
   }
-  if (holder.form == Scene::BodyForm::kModal) {
+  if (holder.is_flexible()) {
     place.refuse(fmt::format("the flexible body '{}' can be held at its nodes only", holder.name),
                  "name one with 'node'");
   }
@@ -107,7 +107,7 @@ void read_tires(const Value& section, Scene& scene) {
     const Mapping keys(value, {"wheel", "model"});
     const Value wheel = keys.required("wheel");
     const int body = read_body(scene, wheel);
-    if (scene.bodies[static_cast<std::size_t>(body)].form != Scene::BodyForm::kRigid) {
+    if (scene.bodies[static_cast<std::size_t>(body)].is_flexible()) {
       wheel.refuse("a wheel must be a rigid body", "use 'form: rigid'");
     }
     for (const Scene::Tire& tire : scene.tires) {

@@ -52,7 +52,7 @@ void check_hold(const Scene& scene, const Side& side, JointKind kind) {
   }
   if (side.point.body == Scene::kGround) return;
   const Scene::Body& body = scene.bodies[static_cast<std::size_t>(side.point.body)];
-  if (body.form == Scene::BodyForm::kRigid) return;
+  if (!body.is_flexible()) return;
   if (side.point.node == 0) {
     side.value.refuse(fmt::format("the flexible body '{}' can be held at its nodes only", body.name),
                       fmt::format("write {{body: {}, node: ...}}", body.name));

@@ -13,7 +13,7 @@ SpanningTree scene_tree(const Scene& scene) {
   std::vector<GraphBody> bodies;
   for (const Scene::Body& body : scene.bodies) {
     const bool moves = !body.v_WBo.isZero(0) || !body.w_WB_B.isZero(0);
-    bodies.push_back({body.form == Scene::BodyForm::kModal, moves});
+    bodies.push_back({body.is_flexible(), moves});
   }
   std::vector<GraphJoint> joints;
   for (const Scene::Joint& joint : scene.joints)

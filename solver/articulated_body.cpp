@@ -31,14 +31,22 @@ void set_own_inertia(const TreeBody& body, const BodyMotion& s, ArticulatedBody&
   a.P.bottomRightCorner<3, 3>().diagonal().setConstant(body.mass);
 }
 
-/// Instantaneous inertia J(z), coupling S(z) and unit modal mass; children's shares are added before they come by.
+/// Instantaneous inertia J(z), couplings S(z), c(z) and P (zero with mean axes) and unit modal mass; children's shares are
+/// added before they come by.
 void set_own_inertia(const FlexibleBody& flexible, const BodyMotion& s, const ModalBodyState& modal,
                      ArticulatedBody& a, CondensedModes& f) {
   a.P.setZero();
   a.P.topLeftCorner<3, 3>() = rotate_inertia(s.X_WB.R, modal.J);
   a.P.bottomRightCorner<3, 3>().diagonal().setConstant(flexible.modal.mass());
   f.Y.leftCols<3>().noalias() = modal.S.transpose() * s.X_WB.R.transpose();
-  f.Y.rightCols<3>().setZero();
+  if (flexible.modal.mean_axes()) {
+    f.Y.rightCols<3>().setZero();
+  } else {
+    const Matrix3 c_skew = skew(Vector3(s.X_WB.R * modal.c));
+    a.P.topRightCorner<3, 3>() = c_skew;
+    a.P.bottomLeftCorner<3, 3>() = c_skew.transpose();
+    f.Y.rightCols<3>().noalias() = flexible.modal.momentum_shape().transpose() * s.X_WB.R.transpose();
+  }
   if (flexible.carries_joints) f.M_zz.setIdentity();
 }
 
@@ -47,6 +55,8 @@ void condense_modes(const FlexibleBody& flexible, Matrix6& P, CondensedModes& f)
   if (flexible.carries_joints) {
     Eigen::LLT<Eigen::Ref<MatrixX>> factor(f.M_zz);  // in place
     f.M_zz.triangularView<Eigen::Lower>().solveInPlace(f.Y);
+  }
+  if (flexible.carries_joints || !flexible.modal.mean_axes()) {
     P.noalias() -= f.Y.transpose() * f.Y;
   } else {
     const Matrix3 SS = f.Y.leftCols<3>().transpose() * f.Y.leftCols<3>();
@@ -140,6 +150,7 @@ void set_own_bias(const System& system, int i, Workspace& ws) {
   if (body.flexible >= 0) {
     const FlexibleMotionT<double>& f = ws.flexible[body.flexible];
     Z.head<3>() += s.X_WB.R * f.modal.t_bias;
+    Z.tail<3>() += s.X_WB.R * f.modal.f_bias;
     modal_part(system.flexible[body.flexible], ws.e) = f.load - f.modal.h_bias;
   } else {
     // w x J w

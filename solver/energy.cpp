@@ -18,9 +18,9 @@ Energy calc_energy(const System& system, const State& state, const Workspace& ws
     if (body.flexible >= 0) {
       const ModalBody& modal = system.flexible[body.flexible].modal;
       const ModalBodyState& m = ws.flexible[body.flexible].modal;
-      energy.kinetic += modal.kinetic_energy(linear(s.V), m);
+      energy.kinetic += modal.kinetic_energy(s.X_WB.R.transpose() * linear(s.V), m);
       energy.elastic += modal.elastic_energy(m);
-      energy.gravity -= modal.mass() * system.gravity.dot(s.X_WB.p);
+      energy.gravity -= system.gravity.dot(modal.mass() * s.X_WB.p + s.X_WB.R * m.c);
     } else {
       const Vector3 w_B = s.X_WB.R.transpose() * angular(s.V);
       energy.kinetic += 0.5 * (body.mass * linear(s.V).squaredNorm() + w_B.dot(body.J_B * w_B));

@@ -47,13 +47,21 @@ void set_own_force(const System& system, const TreeBody& body, BodyMotionT<T>& s
   }
   const FlexibleBody& flexible = system.flexible[body.flexible];
   const FlexibleMotionT<T>& f = ev.flexible[body.flexible];
-  // J alpha + S z'' + t_bias = N,   S^T alpha + z'' + h_bias = Q
+  // J alpha + S z'' + t_bias = N,   m a + f_bias = F,   S^T alpha + z'' + h_bias = Q
   const Vector3T<T> Sz = f.modal.S * f.z_dd;
   s.F_joint.template head<3>() += s.X_WB.R * (f.modal.J * alpha_B + Sz + f.modal.t_bias);
   s.F_joint.template tail<3>() += flexible.modal.mass() * linear(s.A);
   Eigen::Map<VectorXT<T>> r_z(r + flexible.z_rate_start, f.z_dd.size());
   r_z = f.z_dd + f.modal.h_bias - f.load;
   r_z += f.modal.S.transpose().lazyProduct(alpha_B);
+  if (flexible.modal.mean_axes()) return;
+  // c x a in N, alpha x c + P z'' + f_bias in F, P^T a in Q
+  const Matrix3X& P = flexible.modal.momentum_shape();
+  const Vector3T<T> a_B = s.X_WB.R.transpose() * linear(s.A);
+  const Vector3T<T> Pz = P * f.z_dd;
+  s.F_joint.template head<3>() += s.X_WB.R * f.modal.c.cross(a_B);
+  s.F_joint.template tail<3>() += s.X_WB.R * (alpha_B.cross(f.modal.c) + Pz + f.modal.f_bias);
+  r_z += P.transpose().lazyProduct(a_B);
 }
 
 /// r = H^T F joint by joint, tips first, the rest handed to the parent.

@@ -24,6 +24,23 @@ void add_wrench(const System& system, MarkerIndex i, const Vector3T<T>& t, const
   }
 }
 
+/// Gravity on a body: at Bo, and where that is not the mass centre with its moment, and on the modes.
+template <class T>
+void set_gravity(const System& system, const TreeBody& body, Evaluation<T>& ev, BodyMotionT<T>& s) {
+  if (body.flexible < 0) {
+    s.F_applied << Vector3T<T>::Zero(), (body.mass * system.gravity).template cast<T>();
+    return;
+  }
+  const ModalBody& modal = system.flexible[body.flexible].modal;
+  s.F_applied << Vector3T<T>::Zero(), (modal.mass() * system.gravity).template cast<T>();
+  if (modal.mean_axes()) return;
+  // N += c x g,  Q += P^T g
+  FlexibleMotionT<T>& f = ev.flexible[body.flexible];
+  const Vector3T<T> g_B = s.X_WB.R.transpose() * system.gravity;
+  s.F_applied.template head<3>() += s.X_WB.R * f.modal.c.cross(g_B);
+  f.load += modal.momentum_shape().transpose().lazyProduct(g_B);
+}
+
 /// The time and the signals, from the markers' states.
 template <class T>
 void update_variables(const System& system, double t, Evaluation<T>& ev) {
@@ -55,11 +72,8 @@ void apply_forces(const System& system, double t, const VectorXT<T>& x, Evaluati
     x_start += n;
   });
 
-  for (std::size_t i = 0; i < system.bodies.size(); ++i) {
-    const TreeBody& body = system.bodies[i];
-    const double mass = body.flexible < 0 ? body.mass : system.flexible[body.flexible].modal.mass();
-    ev.bodies[i].F_applied << Vector3T<T>::Zero(), (mass * system.gravity).template cast<T>();
-  }
+  for (std::size_t i = 0; i < system.bodies.size(); ++i)
+    set_gravity(system, system.bodies[i], ev, ev.bodies[i]);
   if (system.n_forces == 0) return;
   for (std::size_t i = 0; i < system.markers.size(); ++i)
     add_wrench(system, static_cast<MarkerIndex>(i), ev.wrenches[i].t, ev.wrenches[i].f, ev);

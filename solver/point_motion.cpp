@@ -11,10 +11,10 @@ struct Deflection {
 Deflection calc_deflection(const System& system, const BodyPoint& point, const Evaluation<double>& ev) {
   const int k = system.bodies[point.body].flexible;
   if (k < 0 || point.node_id == 0) return {};
-  const ModeSet& modes = system.flexible[k].modal.modes();
+  const ShapeSet& set = system.flexible[k].modal.set();
   const FlexibleMotionT<double>& flexible = ev.flexible[k];
   const Matrix3& R = ev.bodies[point.body].X_WB.R;
-  const auto Psi = modes.shapes.middleRows<3>(3 * modes.node_index(point.node_id));
+  const auto Psi = set.shapes.middleRows<3>(3 * set.node_index(point.node_id));
   return {R * (Psi * flexible.modal.z), R * (Psi * flexible.modal.zdot), R * (Psi * flexible.z_dd)};
 }
 

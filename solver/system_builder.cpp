@@ -17,11 +17,20 @@ int SystemBuilder::add_body(std::string name, double mass, const Matrix3& J_B, c
   return static_cast<int>(bodies_.size()) - 1;
 }
 
-int SystemBuilder::add_flexible_body(std::string name, ModeSet modes, const Pose& X_WB) {
-  const int body = add_body(std::move(name), modes.mass(), modes.inertia(), X_WB);
-  bodies_[body].modes = std::move(modes);
+int SystemBuilder::add_flexible_body(std::string name, ShapeSet shapes, const Pose& X_WB,
+                                     InertiaTerms terms) {
+  const int body = add_body(std::move(name), shapes.node_mass.sum(),
+                            point_mass_inertia(shapes.node_mass, shapes.node_position), X_WB);
+  bodies_[body].shapes = std::move(shapes);
+  bodies_[body].terms = terms;
   bodies_[body].flexible = true;
   return body;
+}
+
+int SystemBuilder::add_flexible_body(std::string name, const ModeSet& modes, const Pose& X_WB,
+                                     InertiaTerms terms) {
+  modes.validate();
+  return add_flexible_body(std::move(name), shapes_of(modes), X_WB, terms);
 }
 
 void SystemBuilder::set_velocity(int body, const Vector3& v_WB, const Vector3& w_WB_B) {
@@ -42,8 +51,8 @@ Pose SystemBuilder::attachment_pose(Attachment on) const {
   if (on.body == kGround) return {};
   const BodyEntry& body = bodies_[on.body];
   if (on.node_id == 0) return body.X_WB;
-  const int column = body.modes.node_index(on.node_id);
-  return {body.X_WB.R, body.X_WB * Vector3(body.modes.node_position.col(column))};
+  const int column = body.shapes.node_index(on.node_id);
+  return {body.X_WB.R, body.X_WB * Vector3(body.shapes.node_position.col(column))};
 }
 
 void SystemBuilder::add_joint(std::string name, Attachment parent, int child, const Vector3& p_W,
@@ -165,7 +174,7 @@ void SystemBuilder::add_tree_body(int entry, System& system, State& state) {
   system.nv += body.nv;
   if (source.flexible) {
     body.flexible = static_cast<int>(system.flexible.size());
-    FlexibleBody flexible{ModalBody(source.modes, source.interface_ids),
+    FlexibleBody flexible{ModalBody(source.shapes, source.interface_ids, source.terms),
                           static_cast<int>(system.bodies.size()), system.nq, system.nv, false};
     const int m = flexible.modal.mode_count();
     system.nq += m;

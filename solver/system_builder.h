@@ -27,7 +27,11 @@ class SystemBuilder {
 
   /// @param J_B inertia about the mass centre, body axes; X_WB design pose, origin at the mass centre
   int add_body(std::string name, double mass, const Matrix3& J_B, const Pose& X_WB);
-  int add_flexible_body(std::string name, ModeSet modes, const Pose& X_WB);
+  int add_flexible_body(std::string name, ShapeSet shapes, const Pose& X_WB,
+                        InertiaTerms terms = InertiaTerms::consistent);
+  /// @throws InputError if the modes are not valid (ModeSet::validate)
+  int add_flexible_body(std::string name, const ModeSet& modes, const Pose& X_WB,
+                        InertiaTerms terms = InertiaTerms::consistent);
 
   /// Initial velocity of a floating body: v_WBo inertial components [m/s], w_WB body components [rad/s].
   void set_velocity(int body, const Vector3& v_WB, const Vector3& w_WB_B);
@@ -91,7 +95,8 @@ class SystemBuilder {
     double mass;
     Matrix3 J_B;
     Pose X_WB;
-    ModeSet modes;  // of a flexible body
+    ShapeSet shapes;  // of a flexible body
+    InertiaTerms terms = InertiaTerms::consistent;
     bool flexible = false;
     std::vector<int> interface_ids;
     Vector3 v_WB = Vector3::Zero(), w_WB_B = Vector3::Zero();

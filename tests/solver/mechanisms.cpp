@@ -163,14 +163,15 @@ Vector6 momentum(const System& system, const State& state) {
     const TreeBody& body = system.bodies[i];
     const BodyMotion& s = ws.bodies[i];
     const Vector3 w_B = s.X_WB.R.transpose() * angular(s.V);
-    double mass = body.mass;
+    Vector3 p = body.mass * linear(s.V);
     Vector3 L_B = body.J_B * w_B;
     if (body.flexible >= 0) {
       const ModalBody& modal = system.flexible[body.flexible].modal;
-      mass = modal.mass();
-      L_B = modal.angular_momentum(ws.flexible[body.flexible].modal);
+      const ModalBodyState& state_B = ws.flexible[body.flexible].modal;
+      const Vector3 v_B = s.X_WB.R.transpose() * linear(s.V);
+      p = s.X_WB.R * modal.linear_momentum(v_B, state_B);
+      L_B = modal.angular_momentum(v_B, state_B);
     }
-    const Vector3 p = mass * linear(s.V);
     total += spatial(Vector3(s.X_WB.R * L_B + s.X_WB.p.cross(p)), p);
   }
   return total;

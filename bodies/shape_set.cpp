@@ -1,0 +1,115 @@
+#include "bodies/shape_set.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/error.h"
+
+namespace wishbone {
+namespace {
+
+[[noreturn]] void reject(std::string what, std::string value, std::string remedy) {
+  throw InputError({"flexible body", std::move(what), std::move(value), std::move(remedy)});
+}
+
+bool is_square_or_diagonal(const MatrixX& matrix, Eigen::Index m) {
+  return matrix.rows() == m && (matrix.cols() == 1 || matrix.cols() == m);
+}
+
+void check_nodes(const ShapeSet& set) {
+  const Eigen::Index n = set.node_count(), m = set.shape_count();
+  if (n < 3) reject("a flexible body needs at least three nodes", fmt::format("{}", n), "give more nodes");
+  const bool fits = set.node_mass.size() == n && set.node_position.cols() == n &&
+                    set.shapes.rows() == 3 * n && is_square_or_diagonal(set.stiffness, m) &&
+                    is_square_or_diagonal(set.damping, m);
+  if (!fits)
+    reject(fmt::format("{} nodes and {} shapes need {} masses and positions, {} x {} shapes, stiffness and "
+                       "damping of {} rows",
+                       n, m, n, 3 * n, m, m),
+           fmt::format("{} masses, {} positions, {} x {} shapes, stiffness {} x {}, damping {} x {}",
+                       set.node_mass.size(), set.node_position.cols(), set.shapes.rows(), set.shapes.cols(),
+                       set.stiffness.rows(), set.stiffness.cols(), set.damping.rows(), set.damping.cols()),
+           "give every node and every shape its row and column");
+  if (static_cast<Eigen::Index>(std::set<int>(set.node_ids.begin(), set.node_ids.end()).size()) != n)
+    reject("node ids must differ from each other", "a repeated id", "number each node once");
+  for (int i = 0; i < set.node_count(); ++i)
+    if (!(set.node_mass[i] > 0))
+      reject(fmt::format("the mass of node {} must be positive", set.node_ids[i]),
+             fmt::format("{:g} kg", set.node_mass[i]),
+             "leave massless nodes out, or lump the mass so that every node has its share");
+  if (!set.shapes.allFinite() || !set.node_position.allFinite() || !set.stiffness.allFinite() ||
+      !set.damping.allFinite())
+    reject("shapes, positions, stiffness and damping must be finite numbers", "an infinity or not a number",
+           "check how they were read");
+}
+
+void check_mass_centre(const ShapeSet& set) {
+  const double mass = set.node_mass.sum();
+  const Vector3 centre = set.node_position * set.node_mass / mass;
+  const double gyration_radius =
+      std::sqrt(point_mass_inertia(set.node_mass, set.node_position).trace() / mass);
+  if (!(centre.norm() <= ModeSet::kOrthogonalityTolerance * gyration_radius))
+    reject("node positions must be taken about the mass centre",
+           fmt::format("mass centre at ({:g}, {:g}, {:g}) m", centre.x(), centre.y(), centre.z()),
+           "subtract the mass centre from every position");
+}
+
+void check_orthogonality(const ShapeSet& set) {
+  constexpr double tolerance = ModeSet::kOrthogonalityTolerance;
+  const int m = set.shape_count();
+  if (m == 0) return;
+  const VectorX mass_of_row = set.node_mass.transpose().replicate(3, 1).reshaped();
+  const MatrixX M_shapes = mass_of_row.asDiagonal() * set.shapes;
+  const double self = (set.shapes.transpose() * M_shapes - MatrixX::Identity(m, m)).cwiseAbs().maxCoeff();
+  if (!(self <= tolerance))
+    reject("modes must be mass-orthonormal, Psi^T M Psi = 1", fmt::format("largest error {:.3g}", self),
+           "divide each mode by the root of its modal mass and orthogonalise modes of equal frequency");
+  const MatrixX rigid = rigid_body_modes(set.node_mass, set.node_position);
+  const double coupling = (rigid.transpose() * M_shapes).cwiseAbs().maxCoeff();
+  if (set.mean_axes && !(coupling <= tolerance))
+    reject("elastic modes must be mass-orthogonal to rigid-body motion",
+           fmt::format("largest product {:.3g}", coupling),
+           "remove the rigid-body part of each mode with the lumped masses of this set");
+}
+
+void check_symmetry(const MatrixX& matrix, const char* name) {
+  if (matrix.cols() == 1) return;
+  const double asymmetry = (matrix - matrix.transpose()).norm();
+  if (!(asymmetry <= ModeSet::kOrthogonalityTolerance * matrix.norm()))
+    reject(fmt::format("the {} must be symmetric", name), fmt::format("asymmetry {:.3g}", asymmetry),
+           "take its symmetric part if the difference is noise");
+}
+
+}  // namespace
+
+int ShapeSet::node_index(int node_id) const {
+  const auto found = std::find(node_ids.begin(), node_ids.end(), node_id);
+  if (found == node_ids.end())
+    reject("there is no such node", fmt::format("node {}", node_id),
+           fmt::format("name one of the {} nodes of the flexible body", node_count()));
+  return static_cast<int>(found - node_ids.begin());
+}
+
+void ShapeSet::validate() const {
+  check_nodes(*this);
+  check_mass_centre(*this);
+  check_orthogonality(*this);
+  check_symmetry(stiffness, "stiffness");
+  check_symmetry(damping, "damping");
+}
+
+ShapeSet shapes_of(const ModeSet& modes) {
+  ShapeSet set;
+  set.node_ids = modes.node_ids;
+  set.node_mass = modes.node_mass;
+  set.node_position = modes.node_position;
+  set.shapes = modes.shapes;
+  set.stiffness = modes.omega.cwiseAbs2();
+  set.damping = 2 * modes.damping_ratio.cwiseProduct(modes.omega);
+  return set;
+}
+
+}  // namespace wishbone
