@@ -50,8 +50,7 @@ int largest_component(const Vector3& v) {
 
 /// Rows of the six freedoms that the axes are fixed to.
 std::array<int, 6> held_freedoms(const NodalModel& model, const std::array<int, 3>& nodes) {
-  const int o = node_index(model, nodes[0]), i = node_index(model, nodes[1]),
-            j = node_index(model, nodes[2]);
+  const int o = node_index(model, nodes[0]), i = node_index(model, nodes[1]), j = node_index(model, nodes[2]);
   const Vector3 d = model.node_position.col(i) - model.node_position.col(o);
   const Vector3 e = model.node_position.col(j) - model.node_position.col(o);
   // turning about d moves j along d x e
@@ -80,7 +79,8 @@ NodalModel nodal_model(const ModeSet& modes) {
   NodalModel model{modes.node_ids, modes.node_mass, modes.node_position, {}, {}};
   model.stiffness = M_Psi * modes.omega.cwiseAbs2().asDiagonal() * M_Psi.transpose();
   if (modes.damping_ratio.cwiseAbs().maxCoeff() > 0)
-    model.damping = M_Psi * (2 * modes.damping_ratio.cwiseProduct(modes.omega)).asDiagonal() * M_Psi.transpose();
+    model.damping =
+        M_Psi * (2 * modes.damping_ratio.cwiseProduct(modes.omega)).asDiagonal() * M_Psi.transpose();
   return model;
 }
 

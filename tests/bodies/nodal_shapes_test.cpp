@@ -61,7 +61,7 @@ TEST(NodalShapes, LeaveSixFreedomsOfThreeNodesWhereTheyAre) {
   int held = 0;
   for (Eigen::Index row = 0; row < set.shapes.rows(); ++row) held += set.shapes.row(row).isZero(0);
   EXPECT_EQ(held, 6);
-  EXPECT_TRUE(set.shapes.topRows<3>().isZero(0));          // node 1
+  EXPECT_TRUE(set.shapes.topRows<3>().isZero(0));               // node 1
   EXPECT_TRUE(set.shapes.middleRows<2>(3 * 12 + 1).isZero(0));  // node 13: y and z
   const auto node_3 = set.shapes.middleRows<3>(3 * 2);
   EXPECT_TRUE(node_3.row(1).isZero(0) || node_3.row(2).isZero(0));

@@ -225,5 +225,28 @@ TEST(Car, StructuralDampingCalmsTheChassis) {
   EXPECT_LT(late_swing(damped), 0.5 * late_swing(free));
 }
 
+/// Manoeuvre, bank and damping.
+class FlexibleForms : public ::testing::TestWithParam<std::tuple<const char*, const char*, const char*>> {
+ protected:
+  Result run_as(const std::string& chassis, double tolerance, double duration = 0.4) const {
+    const auto [scene, bank, damping] = GetParam();
+    return run({scene,
+                {"chassis=" + chassis, std::string("bank=") + bank, std::string("damping=") + damping},
+                duration,
+                tolerance});
+  }
+};
+
+TEST_P(FlexibleForms, NodalAndModalWithAllModesAreTheSameSystem) {
+  const Result modal = run_as("modal", 1e-10), nodal = run_as("nodal", 1e-10);
+  EXPECT_LT(worst_vehicle_difference(nodal, modal), 1e-7);
+  EXPECT_LT(difference(nodal, modal, "/flexible/chassis/deflection"), 1e-7);
+}
+
+INSTANTIATE_TEST_SUITE_P(Car, FlexibleForms,
+                         ::testing::Combine(::testing::Values("impulse_steer", "sine_depression"),
+                                            ::testing::Values("0 deg", "6 deg"),
+                                            ::testing::Values("0 %", "5 %")));
+
 }  // namespace
 }  // namespace wishbone
