@@ -84,8 +84,7 @@ std::string read_unit(const Value& value) {
 }
 
 std::string row_name(const RecoveryMatrix& matrix, Eigen::Index row) {
-  return matrix.row_names.empty() ? std::to_string(row + 1)
-                                  : matrix.row_names[static_cast<std::size_t>(row)];
+  return matrix.row_names.empty() ? std::to_string(row + 1) : matrix.row_names[static_cast<std::size_t>(row)];
 }
 
 /// Indices of the rows that a list names, all without a list.

@@ -51,10 +51,10 @@ std::map<std::string, VectorX> row_of(const Built& m, const ObserverOptions& opt
 
 ObserverOptions everything() {
   ObserverOptions options;
-  options.flexible = {{0,
-                       {14, 3},
-                       {deflection_rates, modal_rates, modal_accelerations, energies, modal_energies,
-                        interface_forces}}};
+  options.flexible = {
+      {0,
+       {14, 3},
+       {deflection_rates, modal_rates, modal_accelerations, energies, modal_energies, interface_forces}}};
   return options;
 }
 
