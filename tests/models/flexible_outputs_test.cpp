@@ -111,9 +111,9 @@ TEST_F(SwingingBeam, InterfaceForcesMoveTheMassCentre) {
 
 TEST_F(SwingingBeam, RatesAreThoseOfWhatTheyBelongTo) {
   const double h = 1e-4;
-  for (const auto& [path, rate_path] :
-       {std::pair("modal_coordinates", "modal_rates"), {"modal_rates", "modal_accelerations"},
-        {"deflection", "deflection_rate"}}) {
+  for (const auto& [path, rate_path] : {std::pair("modal_coordinates", "modal_rates"),
+                                        {"modal_rates", "modal_accelerations"},
+                                        {"deflection", "deflection_rate"}}) {
     const MatrixX u = run_->read(std::string("/flexible/beam/") + path),
                   rate = run_->read(std::string("/flexible/beam/") + rate_path);
     const double scale = rate.cwiseAbs().maxCoeff();
@@ -188,7 +188,8 @@ TEST_F(PulledBar, RecoversTheStrainAndTheStressOfUniformTension) {
   EXPECT_LT((stress.row(1).array() - 0.1).abs().maxCoeff(), 1e-7);
   EXPECT_EQ(run.file().find("/recovery/strain")->units, "1");
   EXPECT_EQ(run.file().find("/recovery/stress")->units, "MPa");
-  EXPECT_THAT(run.file().find("/recovery/strain")->lists.at("rows"), testing::ElementsAre("1", "2", "3", "4"));
+  EXPECT_THAT(run.file().find("/recovery/strain")->lists.at("rows"),
+              testing::ElementsAre("1", "2", "3", "4"));
   EXPECT_THAT(run.file().find("/recovery/stress")->lists.at("rows"), testing::ElementsAre("4", "2"));
 }
 

@@ -27,10 +27,11 @@ TEST(RecoveryMatrix, ComesFromMatrixMarketOfEitherKind) {
       read("R.mtx", "%%MatrixMarket matrix array real general\n2 3\n1\n4\n0\n5\n-2.5\n6\n");
   EXPECT_EQ(array.R, kMatrix);
   EXPECT_TRUE(array.row_names.empty());
-  EXPECT_EQ(read("R.mtx",
-                 "%%MatrixMarket matrix coordinate real general\n2 3 5\n1 1 1\n2 1 4\n2 2 5\n1 3 -2.5\n2 3 6\n")
-                .R,
-            kMatrix);
+  EXPECT_EQ(
+      read("R.mtx",
+           "%%MatrixMarket matrix coordinate real general\n2 3 5\n1 1 1\n2 1 4\n2 2 5\n1 3 -2.5\n2 3 6\n")
+          .R,
+      kMatrix);
 }
 
 TEST(RecoveryMatrix, ComesFromATableWithOrWithoutNamesOfItsRows) {
@@ -59,8 +60,7 @@ TEST(RecoveryMatrix, FilesThatAreNoneAreRefused) {
   EXPECT_EQ(refusal("R.csv", "row, a[Pa]\ntop, 1\n"),
             "R.csv:1 (byte 5): error: columns of a recovery matrix have no units (got 'a')\n"
             "  remove the unit; the scene gives that of the recovered quantity");
-  EXPECT_THAT(refusal("R.csv", "1, 2\n3, 4\n"),
-              testing::HasSubstr("the first line must name the columns"));
+  EXPECT_THAT(refusal("R.csv", "1, 2\n3, 4\n"), testing::HasSubstr("the first line must name the columns"));
   EXPECT_THAT(refusal("R.csv", "row, a\ntop, nan\n"), testing::StartsWith("R.csv:2 (byte 12): error: "));
   EXPECT_THAT(refusal("R.mtx", "1 2\n3 4\n"), testing::StartsWith("R.mtx:1 (byte 0): error: "));
 }
