@@ -25,9 +25,12 @@ struct ReportLine {
 
 const std::vector<ReportLine>& vehicle_report() {
   static const std::vector<ReportLine> lines{
-      {"Path of the chassis", "/vehicle/*_position"}, {"Vehicle motion", "/vehicle/*rate*"},
-      {"Vehicle motion", "/vehicle/*slip*"},          {"Vehicle motion", "/vehicle/*velocity*"},
-      {"Steering", "/vehicle/*steer*"},               {"Vehicle motion", "/vehicle/*"},
+      {"Path of the chassis", "/vehicle/*_position"},
+      {"Vehicle motion", "/vehicle/*rate*"},
+      {"Vehicle motion", "/vehicle/*slip*"},
+      {"Vehicle motion", "/vehicle/*velocity*"},
+      {"Steering", "/vehicle/*steer*"},
+      {"Vehicle motion", "/vehicle/*"},
       {"Tire deflection", "/tires/*/deflection"},
   };
   return lines;
@@ -101,7 +104,8 @@ class SectionList {
     if (!matches(kModalEnergies, signal.path)) return;
     const std::string name = signal.path.substr(signal.path.rfind('/') + 1);
     section(heading).charts.push_back(
-        {fmt::format("Peak of the {} of the {} by mode", name == "modal_strain_energy" ? "strain energy" : "kinetic energy",
+        {fmt::format("Peak of the {} of the {} by mode",
+                     name == "modal_strain_energy" ? "strain energy" : "kinetic energy",
                      owner_of(signal.path)),
          signal.units,
          "mode",

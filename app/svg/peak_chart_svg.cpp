@@ -47,7 +47,8 @@ SvgElement scales(const Axes& axes, const std::string& things) {
   SvgElement group = svg_group({{"font-size", 11.5}, {"fill", kSoft}});
   for (int k = 0; k <= kDecades; ++k) {
     const double y = axes.y(axes.top - k);
-    group.add(svg_line({kLeft, y}, {kWidth - kRight, y}, {{"stroke", k == kDecades ? "#b9c0c9" : "#dde2e8"}}));
+    group.add(
+        svg_line({kLeft, y}, {kWidth - kRight, y}, {{"stroke", k == kDecades ? "#b9c0c9" : "#dde2e8"}}));
     group.add(svg_text({kLeft - 8, y + 4}, fmt::format("{:g}", std::pow(10.0, axes.top - k)),
                        {{"text-anchor", "end"}}));
   }

@@ -22,11 +22,11 @@ constexpr int kModes = 54;
 
 /// Two rows of a flexible frame: mode j (from 1) has the energy `scale`/j^2 in the second, of nodes 1, 2, 3 the last bends most.
 std::string write_run(const std::string& path, double scale = 1) {
-  Recorder recorder(path,
-                    {{"/flexible/frame/modal_strain_energy", {kModes}, "J", "", "of each mode", {}},
-                     {"/flexible/frame/strain_energy", {}, "J", "", "of the body", {}},
-                     {"/flexible/frame/interface_force", {3, 3}, "N", "body", "", {{"nodes", {"1", "2", "3"}}}},
-                     {"/recovery/stress", {5}, "MPa", "", "", {{"rows", {"a", "b", "c", "d", "e"}}}}});
+  Recorder recorder(
+      path, {{"/flexible/frame/modal_strain_energy", {kModes}, "J", "", "of each mode", {}},
+             {"/flexible/frame/strain_energy", {}, "J", "", "of the body", {}},
+             {"/flexible/frame/interface_force", {3, 3}, "N", "body", "", {{"nodes", {"1", "2", "3"}}}},
+             {"/recovery/stress", {5}, "MPa", "", "", {{"rows", {"a", "b", "c", "d", "e"}}}}});
   for (const double t : {0.0, 1.0}) {
     std::vector<double> row;
     for (int j = 1; j <= kModes; ++j) row.push_back(scale * t / (j * j));
@@ -57,7 +57,8 @@ TEST_F(FlexibleReport, ShowsTheStrongestModesTheLargestForcesAndStresses) {
   EXPECT_THAT(
       plots(choose_sections(a_, b_, {})),
       ElementsAre("Energy of the frame: Strain energy", "Energy of the frame: Strain energy of mode 1",
-                  "Energy of the frame: Strain energy of mode 2", "Energy of the frame: Strain energy of mode 3",
+                  "Energy of the frame: Strain energy of mode 2",
+                  "Energy of the frame: Strain energy of mode 3",
                   "Energy of the frame: Strain energy of mode 4", "Interface forces of the frame: Node 2 x",
                   "Interface forces of the frame: Node 2 y", "Interface forces of the frame: Node 2 z",
                   "Interface forces of the frame: Node 3 x", "Interface forces of the frame: Node 3 y",
