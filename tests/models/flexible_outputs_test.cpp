@@ -257,18 +257,18 @@ TEST_P(BrokenOutputs, AreRefusedWithPlaceValueAndRemedy) {
 
 constexpr Broken kCatalogue[] = {
     Broken{"UnknownSignal", "energies", "enrgies",
-           "scene.yaml:16:40: output.flexible.beam[2]: error: not one of the signals of a flexible body (got "
+           "scene.yaml:16:39: output.flexible.beam[2]: error: not one of the signals of a flexible body (got "
            "'enrgies')\n"
            "  did you mean 'energies'?"},
     Broken{"SignalTwice", "energies", "energies, energies",
-           "scene.yaml:16:50: output.flexible.beam[3]: error: the signal is in the list already (got "
+           "scene.yaml:16:49: output.flexible.beam[3]: error: the signal is in the list already (got "
            "'energies')\n"
            "  remove one of the two"},
     Broken{"SignalOfMissingBody", "{beam: [deflection_rates", "{bean: [deflection_rates",
-           "scene.yaml:16:20: output.flexible.bean: error: there is no 'bean' among the bodies\n"
+           "scene.yaml:16:14: output.flexible.bean: error: there is no 'bean' among the bodies\n"
            "  did you mean 'beam'?"},
     Broken{"SignalOfBodyWithoutModes", "{beam: [deflection_rates", "{arm: [deflection_rates",
-           "scene.yaml:16:19: output.flexible.arm: error: the body 'arm' has no modes\n"
+           "scene.yaml:16:14: output.flexible.arm: error: the body 'arm' has no modes\n"
            "  name a flexible body, or give this one the key 'flexible'"},
     Broken{"RatesOfNoNodes", "  nodes: {beam: [1]}\n", "",
            "scene.yaml:15:21: output.flexible.beam[1]: error: no nodes of 'beam' are recorded (got "
@@ -281,7 +281,7 @@ constexpr Broken kCatalogue[] = {
            "scene.yaml:18:50: output.recovery.stress.unit: error: this is no unit (got 'Pascals per mode')\n"
            "  write it as in MPa or N/mm2; 1 for strains and other pure numbers"},
     Broken{"RecoveryOfABodyWithoutModes", "{body: beam, file: stress.mtx", "{body: arm, file: stress.mtx",
-           "scene.yaml:18:20: output.recovery.stress.body: error: the body 'arm' has no modes\n"
+           "scene.yaml:18:20: output.recovery.stress.body: error: the body 'arm' has no modes (got 'arm')\n"
            "  name a flexible body, or give this one the key 'flexible'"},
     Broken{"RecoveryFileMissing", "stress.mtx", "sterss.mtx",
            "scene.yaml:18:32: output.recovery.stress.file: error: there is no file sterss.mtx (got "
@@ -308,8 +308,9 @@ constexpr Broken kCatalogue[] = {
     Broken{"RecoveryOfNoRows", "rows: [1, 3]", "rows: []",
            "scene.yaml:18:54: output.recovery.stress.rows: error: there are no rows in the list\n"
            "  remove the key to record all of them"},
-    Broken{"RecoveryFromTheWrongFile", "strain.csv", "scene.yaml",
-           "scene.yaml:19:32: output.recovery.strain.file: scene.yaml:2 (byte 12): error: "}};
+    Broken{"NamesOfRowsThatHaveNone", "strain.csv", "stress.mtx",
+           "scene.yaml:19:60: output.recovery.strain.rows[1]: error: not a finite number (got 'top')\n"
+           "  write a number such as 0.5 or 1e3, or a number and a unit such as 120 km/h"}};
 
 INSTANTIATE_TEST_SUITE_P(Catalogue, BrokenOutputs, testing::ValuesIn(kCatalogue),
                          [](const auto& param_info) { return std::string(param_info.param.name); });

@@ -61,7 +61,8 @@ TEST(RecoveryMatrix, FilesThatAreNoneAreRefused) {
             "R.csv:1 (byte 5): error: columns of a recovery matrix have no units (got 'a')\n"
             "  remove the unit; the scene gives that of the recovered quantity");
   EXPECT_THAT(refusal("R.csv", "1, 2\n3, 4\n"), testing::HasSubstr("the first line must name the columns"));
-  EXPECT_THAT(refusal("R.csv", "row, a\ntop, nan\n"), testing::StartsWith("R.csv:2 (byte 12): error: "));
+  EXPECT_THAT(refusal("R.csv", "row, a\ntop, 1\nend, nan\n"),
+              testing::StartsWith("R.csv:3 (byte 19): error: "));
   EXPECT_THAT(refusal("R.mtx", "1 2\n3 4\n"), testing::StartsWith("R.mtx:1 (byte 0): error: "));
 }
 
