@@ -4,30 +4,10 @@
 #include <vector>
 
 #include "app/difference.h"
+#include "app/sections.h"
 #include "solver/result_file.h"
 
 namespace wishbone {
-
-/// Channels that belong under one heading of a report.
-struct Section {
-  std::string heading;
-  struct Entry {
-    std::string title;  ///< "front left", "Side slip"
-    Channel channel;
-  };
-  std::vector<Entry> entries;
-};
-
-/// What to compare.
-struct Choice {
-  std::vector<std::string> globs;  ///< signals by path; empty: what a report on a vehicle shows
-  bool all = false;                ///< every signal, whatever `globs` say
-};
-
-/// What a report shows of two files: without globs the path of the chassis, roll, yaw and side slip,
-/// steering, tire deflections, and the two nodes of each flexible body that deflect most. Channels that only
-/// one file has are kept. When neither file is a vehicle (nothing of this exists), everything is shown.
-std::vector<Section> choose_sections(const ResultFile& a, const ResultFile& b, const Choice& choice);
 
 /// Two files side by side.
 struct Comparison {

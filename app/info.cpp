@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "app/command.h"
 #include "app/meta_text.h"
@@ -27,6 +28,7 @@ struct Options {
 struct DatasetFacts {
   std::string path, units, frame, about;
   hdf5::Shape shape;
+  std::map<std::string, std::vector<std::string>> lists;  ///< what its numbers belong to: `nodes`, `rows`
 };
 
 /// What a person or a program wants to know about any HDF5 file of wishbone, a result or a set of modes.
@@ -41,8 +43,17 @@ Facts gather(const hdf5::File& file) {
   Facts facts;
   for (const std::string& path : file.dataset_paths()) {
     const hdf5::Dataset dataset = file.open_dataset(path);
-    facts.datasets.push_back({path, dataset.text_attribute("units"), dataset.text_attribute("frame"),
-                              dataset.text_attribute("about"), dataset.shape()});
+    DatasetFacts d{path,
+                   dataset.text_attribute("units"),
+                   dataset.text_attribute("frame"),
+                   dataset.text_attribute("about"),
+                   dataset.shape(),
+                   {}};
+    for (const auto& [name, value] : dataset.attributes())
+      if (const auto* texts = std::get_if<std::vector<std::string>>(&value);
+          texts && (name == "nodes" || name == "rows"))
+        d.lists.emplace(name, *texts);
+    facts.datasets.push_back(std::move(d));
   }
   if (file.contains("/meta")) facts.meta = file.open_group("/meta").attributes();
   if (file.contains("/meta/run")) facts.run = file.open_group("/meta/run").attributes();
@@ -60,6 +71,18 @@ void print_meta(const std::map<std::string, hdf5::Value>& meta) {
   }
 }
 
+/// What a dataset is about, and of which nodes or rows: the first ones of many.
+std::string about_text(const DatasetFacts& d) {
+  constexpr std::size_t kMostListed = 12;
+  std::string text = d.about;
+  for (const auto& [name, texts] : d.lists) {
+    const std::span<const std::string> listed(texts.data(), std::min(texts.size(), kMostListed));
+    text +=
+        fmt::format("; {} {}{}", name, fmt::join(listed, ", "), listed.size() < texts.size() ? ", ..." : "");
+  }
+  return text;
+}
+
 void print_lines(const Facts& facts, const Options& options) {
   fmt::print("{}\n", options.file);
   if (const auto status = facts.meta.find("status"); status != facts.meta.end())
@@ -71,7 +94,7 @@ void print_lines(const Facts& facts, const Options& options) {
   fmt::print("\n");
   TextTable table({"dataset", "shape", "unit", "frame", "about"}, 5);
   for (const DatasetFacts& d : facts.datasets)
-    table.add_row({d.path, fmt::format("[{}]", fmt::join(d.shape, ", ")), d.units, d.frame, d.about});
+    table.add_row({d.path, fmt::format("[{}]", fmt::join(d.shape, ", ")), d.units, d.frame, about_text(d)});
   fmt::print("{}", table.text());
   if (!facts.meta.empty() && !facts.modes) {
     fmt::print("\nmeta\n");
@@ -94,9 +117,12 @@ void print_json(const Facts& facts, const Options& options) {
         {"first", facts.time[0]}, {"last", facts.time[facts.time.size() - 1]}, {"rows", facts.time.size()}};
   if (facts.modes) out["modal_data"] = json_of(*facts.modes);
   out["datasets"] = nlohmann::ordered_json::array();
-  for (const DatasetFacts& d : facts.datasets)
-    out["datasets"].push_back(
-        {{"path", d.path}, {"shape", d.shape}, {"units", d.units}, {"frame", d.frame}, {"about", d.about}});
+  for (const DatasetFacts& d : facts.datasets) {
+    nlohmann::ordered_json dataset{
+        {"path", d.path}, {"shape", d.shape}, {"units", d.units}, {"frame", d.frame}, {"about", d.about}};
+    for (const auto& [name, texts] : d.lists) dataset[name] = texts;
+    out["datasets"].push_back(std::move(dataset));
+  }
   out["meta"] = json_of_meta(facts.meta);
   out["run"] = json_of_meta(facts.run);
   fmt::print("{}\n", out.dump(2));

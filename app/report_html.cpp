@@ -84,6 +84,18 @@ nlohmann::json plot_data(const ResultFile& a, const ResultFile& b, const Section
   return plot;
 }
 
+/// What is left out of the plots; empty when nothing is.
+std::string plot_note(const Section& section) {
+  const auto plotted = std::count_if(section.entries.begin(), section.entries.end(),
+                                     [](const Section::Entry& entry) { return entry.plotted; });
+  const auto all = static_cast<std::ptrdiff_t>(section.entries.size());
+  if (plotted == all) return "";
+  return fmt::format(
+      "{} of {} curves are plotted: of signals with many numbers those that become largest. The table below "
+      "has all.",
+      plotted, all);
+}
+
 /// Everything the page's program needs; "</" is masked so that no text can end the script element.
 std::string page_data(const ReportedFile& a, const ReportedFile& b, const Comparison& comparison) {
   const auto times = [](const ResultFile& file) {
@@ -92,10 +104,15 @@ std::string page_data(const ReportedFile& a, const ReportedFile& b, const Compar
   nlohmann::json data{{"titles", {a.title, b.title}}, {"times", {times(a.file), times(b.file)}}};
   data["sections"] = nlohmann::json::array();
   for (const Section& section : comparison.sections) {
-    nlohmann::json plots = nlohmann::json::array();
+    nlohmann::json plots = nlohmann::json::array(), pictures = nlohmann::json::array();
     for (const Section::Entry& entry : section.entries)
-      plots.push_back(plot_data(a.file, b.file, entry, comparison));
-    data["sections"].push_back({{"heading", section.heading}, {"plots", plots}});
+      if (entry.plotted) plots.push_back(plot_data(a.file, b.file, entry, comparison));
+    for (const PeakChart& chart : section.charts)
+      pictures.push_back({{"title", chart.title}, {"unit", chart.unit}, {"svg", peak_chart_svg(chart)}});
+    data["sections"].push_back({{"heading", section.heading},
+                                {"note", plot_note(section)},
+                                {"plots", plots},
+                                {"pictures", pictures}});
   }
   std::string text = data.dump();
   for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at))

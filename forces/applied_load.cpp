@@ -60,18 +60,23 @@ std::vector<double> AppliedLoad::stop_times() const {
 }
 
 template <class T>
+WrenchT<T> AppliedLoad::wrench(const ForceInputT<T>& input) const {
+  Vector3T<T> f = values(load_.f, input, name_), t = values(load_.t, input, name_);
+  if (axes_ == LoadAxes::kWorld) return {t, f};
+  const Matrix3T<T>& R_WM = input.markers[marker_].R_WM;
+  return {R_WM * t, R_WM * f};
+}
+
+template <class T>
 void AppliedLoad::apply(const ForceInputT<T>& input, ForceOutputT<T>& output) const {
   const MarkerStateT<T>& M = input.markers[marker_];
-  Vector3T<T> f = values(load_.f, input, name_), t = values(load_.t, input, name_);
-  if (axes_ == LoadAxes::kMarker) {
-    f = (M.R_WM * f).eval();
-    t = (M.R_WM * t).eval();
-  }
+  const auto [t, f] = wrench(input);
   output.wrenches[marker_].t += t;
   output.wrenches[marker_].f += f;
   output.power = f.dot(M.v_WM) + t.dot(M.w_WM);
 }
 
+template WrenchT<double> AppliedLoad::wrench(const ForceInputT<double>&) const;
 template void AppliedLoad::apply(const ForceInputT<double>&, ForceOutputT<double>&) const;
 template void AppliedLoad::apply(const ForceInputT<Dual>&, ForceOutputT<Dual>&) const;
 

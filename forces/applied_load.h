@@ -36,12 +36,16 @@ class AppliedLoad {
   std::vector<int> variables() const;
   std::vector<double> stop_times() const;
 
-  /// @throws NumericsError naming the element and the time when a component is not finite
+  /// This and output throw NumericsError naming the element and the time when a component is not finite.
   template <class T>
   void apply(const ForceInputT<T>& input, ForceOutputT<T>& output) const;
   double energy(const ForceInput&) const { return 0.0; }
+  /// What it exerts at its marker, world axes.
+  Wrench output(const ForceInput& input) const { return wrench(input); }
 
  private:
+  template <class T>
+  WrenchT<T> wrench(const ForceInputT<T>& input) const;
   template <class Use>
   void for_each_component(Use use) const;
 

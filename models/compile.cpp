@@ -11,6 +11,7 @@
 #include "identification/mode_set_of.h"
 #include "models/compile_joints.h"
 #include "models/compile_loads.h"
+#include "models/compile_recoveries.h"
 #include "models/scene_attachment.h"
 #include "solver/system_builder.h"
 
@@ -57,6 +58,7 @@ class Compiler {
     CompiledScene compiled;
     compiled.identified = std::move(identified_);
     std::tie(compiled.system, compiled.initial) = std::move(builder_).build();
+    check_recoveries(scene_, builder_, compiled.system);
     compiled.observer = observer();
     compiled.transient = transient();
     return compiled;
@@ -144,8 +146,11 @@ class Compiler {
 
   ObserverOptions observer() const {
     ObserverOptions options;
-    for (const Scene::NodeOutput& output : scene_.output.nodes)
-      options.deflections.push_back({builder_.built_index(output.body), output.nodes});
+    for (const Scene::FlexibleOutput& output : scene_.output.flexible)
+      options.flexible.push_back({builder_.built_index(output.body), output.nodes, output.signals});
+    for (const Scene::RecoveryOutput& output : scene_.output.recoveries)
+      options.recoveries.push_back(
+          {output.name, output.unit, builder_.built_index(output.body), output.rows, output.matrix});
     for (const Scene::PointOutput& output : scene_.output.points)
       options.points.push_back({output.name, body_point(output.point)});
     for (const Scene::Signal& signal : scene_.signals)

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "core/source.h"
 #include "core/spatial.h"
 #include "joints/joint_kind.h"
+#include "solver/flexible_signal.h"
 
 namespace wishbone {
 
@@ -262,9 +264,20 @@ struct Scene {
     Source where;
   };
 
-  struct NodeOutput {
+  /// What is recorded of a body that may be flexible beside its modal coordinates; nothing while it is rigid.
+  struct FlexibleOutput {
     int body = kGround;
-    std::vector<int> nodes;  ///< from 1
+    std::vector<int> nodes;  ///< whose deflections are recorded
+    std::set<FlexibleSignal> signals;
+  };
+  /// Quantities that a matrix makes of the modal coordinates of a body, one each row: stresses, strains.
+  struct RecoveryOutput {
+    std::string name;
+    int body = kGround;
+    std::string unit;               ///< of the quantities, as written
+    std::vector<std::string> rows;  ///< names of the rows: numbers from 1 where the file gives none
+    MatrixX matrix;                 ///< chosen rows x modes
+    Source where;                   ///< of the file's name
   };
   /// A point of a body whose motion is recorded.
   struct PointOutput {
@@ -272,8 +285,9 @@ struct Scene {
     Point point;
   };
   struct Output {
-    double interval = 0.01;         ///< [s]; by default the whole run when that is shorter
-    std::vector<NodeOutput> nodes;  ///< whose deflections are recorded (of modal bodies)
+    double interval = 0.01;  ///< [s]; by default the whole run when that is shorter
+    std::vector<FlexibleOutput> flexible;
+    std::vector<RecoveryOutput> recoveries;
     std::vector<PointOutput> points;
     Source where;
   };

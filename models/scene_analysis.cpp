@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
 
@@ -57,38 +55,6 @@ void read_analysis(const Value& section, Scene& scene) {
   if (const auto max_steps = keys.optional("max_steps")) {
     analysis.max_steps = max_steps->integer(1, std::numeric_limits<int>::max());
   }
-}
-
-void read_output(const Value& section, Scene& scene) {
-  const Mapping keys(section, {"interval", "nodes", "points"});
-  Scene::Output& output = scene.output;
-  output.where = section.where();
-  if (const auto interval = keys.optional("interval")) {
-    output.interval = interval->positive(kTime);
-    if (output.interval > scene.analysis.duration) {
-      interval->refuse(fmt::format("the interval is longer than the run of {} s", scene.analysis.duration),
-                       "give a shorter one");
-    }
-    constexpr double kMostOutputs = 1e7;
-    if (scene.analysis.duration / output.interval > kMostOutputs) {
-      interval->refuse("the run would have more than ten million outputs", "give a longer interval");
-    }
-  }
-  if (const auto nodes = keys.optional("nodes")) {
-    for (const auto& [name, value] : nodes->named()) {
-      Scene::NodeOutput recorded;
-      recorded.body = index_of(scene.bodies, name, value, "the bodies");
-      const Scene::Body& body = scene.bodies[static_cast<std::size_t>(recorded.body)];
-      for (const Value& node : value.list()) recorded.nodes.push_back(read_node(node, body));
-      output.nodes.push_back(recorded);
-    }
-  }
-  if (const auto points = keys.optional("points"))
-    for (const auto& [name, value] : points->named()) {
-      const Mapping point(value, {"body", "at", "node"});
-      output.points.push_back({name, read_point(scene, read_body(scene, point.required("body")),
-                                                point.optional("at"), point.optional("node"), value)});
-    }
 }
 
 }  // namespace wishbone::scene_sections

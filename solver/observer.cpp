@@ -72,31 +72,6 @@ void Observer::add_bodies(const System& system) {
   }
 }
 
-void Observer::add_flexible(const System& system, const ObserverOptions& options) {
-  for (std::size_t k = 0; k < system.flexible.size(); ++k) {
-    const FlexibleBody& flexible = system.flexible[k];
-    const int start = flexible.z_start, m = flexible.modal.mode_count();
-    add("/flexible/" + system.bodies[flexible.body].name + "/modal_coordinates", {m}, "m kg^0.5", "",
-        "amplitudes of the mass-normalised elastic modes", [start, m](const Sample& s, double* out) {
-          Eigen::Map<VectorX>(out, m) = s.state.q.segment(start, m);
-        });
-  }
-  for (const ObserverOptions::Deflection& d : options.deflections) {
-    const TreeBody& body = system.bodies[d.body];
-    if (body.flexible < 0) continue;
-    const int k = body.flexible;
-    add("/flexible/" + body.name + "/deflection", {static_cast<int>(d.node_ids.size()), 3}, "m", "body",
-        "deflection of nodes from the undeformed body, mean-axis frame",
-        [k, ids = d.node_ids](const Sample& s, double* out) {
-          for (const int id : ids) {
-            put(s.system.flexible[k].modal.deflection(id, s.ws.flexible[k].modal), out);
-            out += 3;
-          }
-        });
-    for (const int id : d.node_ids) signals_.back().lists["nodes"].push_back(std::to_string(id));
-  }
-}
-
 void Observer::add_signals(const ObserverOptions& options) {
   for (std::size_t i = 0; i < options.signals.size(); ++i) {
     const ObserverOptions::NamedSignal& signal = options.signals[i];

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <functional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "solver/energy.h"
+#include "solver/flexible_signal.h"
 #include "solver/point_motion.h"
 #include "solver/recorder.h"
 #include "solver/workspace.h"
@@ -14,9 +16,17 @@ namespace wishbone {
 
 /// What is observed beyond the plain motion of bodies, joints and forces.
 struct ObserverOptions {
-  struct Deflection {
-    int body = -1;  ///< flexible body, index into System::bodies
-    std::vector<int> node_ids;
+  struct Flexible {
+    int body = -1;              ///< index into System::bodies; nothing is recorded of a rigid one
+    std::vector<int> node_ids;  ///< whose deflections are recorded
+    std::set<FlexibleSignal> signals;
+  };
+  /// What a matrix makes of the modal coordinates of a flexible body: R z, stresses or strains.
+  struct Recovery {
+    std::string name, units;
+    int body = -1;                  ///< index into System::bodies; nothing is recorded of a rigid one
+    std::vector<std::string> rows;  ///< their names
+    MatrixX R;                      ///< rows x modes
   };
   struct Steering {
     std::string name;
@@ -30,7 +40,8 @@ struct ObserverOptions {
   struct NamedSignal {
     std::string name, units;
   };
-  std::vector<Deflection> deflections;
+  std::vector<Flexible> flexible;
+  std::vector<Recovery> recoveries;
   std::vector<Point> points;
   std::vector<NamedSignal> signals;  ///< the first ones of System::signals, in their order
   int chassis = -1;                  ///< body of the derived vehicle signals; -1: none
@@ -63,6 +74,13 @@ class Observer {
            Evaluate evaluate);
   void add_bodies(const System& system);
   void add_flexible(const System& system, const ObserverOptions& options);
+  // of System::flexible[k]
+  void add_deflections(const System& system, int k, const std::vector<int>& node_ids, bool rates);
+  void add_modal_motion(const System& system, int k, const std::set<FlexibleSignal>& chosen);
+  void add_body_energies(const System& system, int k);
+  void add_modal_energies(const System& system, int k);
+  void add_interface_forces(const System& system, int k);
+  void add_recovery(const System& system, const ObserverOptions::Recovery& recovery);
   void add_tree_joints(const System& system);
   void add_rotation(const std::string& path, const TreeBody& body);
   void add_translation(const std::string& path, const TreeBody& body);

@@ -22,6 +22,12 @@ void Observer::add_forces(const System& system) {
           [input, &element](const Sample& s, double* out) { *out = element.output(input(s)).rate; });
       add(path + "/force", {}, "N", "", "force, positive in tension",
           [input, &element](const Sample& s, double* out) { *out = element.output(input(s)).force; });
+    } else if constexpr (std::is_same_v<Element, AppliedLoad>) {
+      const std::string path = "/loads/" + element.name();
+      add(path + "/force", {3}, "N", kWorld, "on the body, at the point of the load",
+          [input, &element](const Sample& s, double* out) { put(element.output(input(s)).f, out); });
+      add(path + "/moment", {3}, "N m", kWorld, "on the body, about the point of the load",
+          [input, &element](const Sample& s, double* out) { put(element.output(input(s)).t, out); });
     } else if constexpr (requires { element.gauge(); }) {
       const bool angle = element.gauge().is_angle();
       const std::string path = "/forces/" + element.name();

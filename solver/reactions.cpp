@@ -62,6 +62,7 @@ void set_joint_forces_of(const System& system, const VectorX& n, Workspace& ws) 
 
 void calc_reactions(const System& system, Workspace& ws) {
   calc_joint_forces(system, ws);
+  if (static_cast<int>(ws.closure.kept.size()) == system.n_rows) return;
   const MatrixX stresses = closure_self_stresses(system, ws);
   if (stresses.cols() == 0) return;
 

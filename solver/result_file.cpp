@@ -30,6 +30,13 @@ std::vector<std::string> names_of_axis(int length, bool has_frame) {
   return names;
 }
 
+/// A list of a signal that has one entry for each of `length` things; nullptr when there is none.
+const std::vector<std::string>* list_of_length(const Signal& signal, const std::string& name, int length) {
+  const auto list = signal.lists.find(name);
+  return list != signal.lists.end() && static_cast<int>(list->second.size()) == length ? &list->second
+                                                                                       : nullptr;
+}
+
 }  // namespace
 
 ResultFile::ResultFile(const std::string& path) : path_(path), file_(hdf5::File::open(path)) {
@@ -86,14 +93,15 @@ std::vector<std::string> component_names(const Signal& signal) {
   if (signal.shape.empty()) return {""};
   const std::vector<std::string> components = names_of_axis(signal.shape.back(), !signal.frame.empty());
   const int vectors = signal.size() / signal.shape.back();
-  if (signal.shape.size() == 1) return components;
-
-  const auto nodes = signal.lists.find("nodes");
-  const bool named = nodes != signal.lists.end() && static_cast<int>(nodes->second.size()) == vectors;
+  if (signal.shape.size() == 1) {
+    const auto* rows = list_of_length(signal, "rows", signal.size());
+    return rows ? *rows : components;
+  }
+  const auto* nodes = list_of_length(signal, "nodes", vectors);
   std::vector<std::string> names;
   for (int i = 0; i < vectors; ++i) {
     const std::string vector =
-        named ? "node " + nodes->second[static_cast<std::size_t>(i)] : fmt::format("{}", i + 1);
+        nodes ? "node " + (*nodes)[static_cast<std::size_t>(i)] : fmt::format("{}", i + 1);
     for (const std::string& component : components) names.push_back(vector + " " + component);
   }
   return names;

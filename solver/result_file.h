@@ -46,8 +46,8 @@ class ResultFile {
 };
 
 /// A name for every number in a row: a scalar has the empty name; {3} gives x y z and {4} (quaternions) w x y
-/// z when the signal has a frame, else the components are numbered from 1; {k, n} gives the name of the
-/// vector (from the signal's list `nodes`, "node 19", else its number) and then its component.
+/// z when the signal has a frame, else the components have the names in the signal's list `rows` or are numbered from 1;
+/// {k, n} gives the name of the vector (from the signal's list `nodes`, "node 19", else its number) and then its component.
 std::vector<std::string> component_names(const Signal& signal);
 
 }  // namespace wishbone

@@ -50,6 +50,7 @@ struct FlexibleBody {
   int z_start = 0, z_rate_start = 0;  ///< where z and z' stand in q and v
   /// Tree joints hang on its nodes, so its modal mass matrix is not the identity.
   bool carries_joints = false;
+  std::vector<int> interface_ids;  ///< ids of the interface nodes, in the order of the ModalBody
 };
 
 /// A marker of the compiled scene: fixed to a body, or to an interface node of a flexible one.

@@ -175,7 +175,11 @@ void SystemBuilder::add_tree_body(int entry, System& system, State& state) {
   if (source.flexible) {
     body.flexible = static_cast<int>(system.flexible.size());
     FlexibleBody flexible{ModalBody(source.shapes, source.interface_ids, source.terms),
-                          static_cast<int>(system.bodies.size()), system.nq, system.nv, false};
+                          static_cast<int>(system.bodies.size()),
+                          system.nq,
+                          system.nv,
+                          false,
+                          source.interface_ids};
     const int m = flexible.modal.mode_count();
     system.nq += m;
     system.nv += m;

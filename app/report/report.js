@@ -116,11 +116,22 @@
     }));
   }
 
+  // A drawing that was made with the page.
+  function show(parent, picture) {
+    const figure = parent.appendChild(element("figure", "picture"));
+    const caption = figure.appendChild(element("figcaption"));
+    caption.append(element("b", "", picture.title), element("span", "unit", `[${picture.unit}]`));
+    figure.insertAdjacentHTML("beforeend", picture.svg);
+  }
+
   const page = document.getElementById("plots");
   for (const section of data.sections) {
     const part = page.appendChild(element("section"));
     part.appendChild(element("h2", "", section.heading));
-    const grid = part.appendChild(element("div", "grid " + (section.plots.length % 3 === 0 ? "three" : "two")));
+    if (section.note) part.appendChild(element("p", "caption", section.note));
+    const columns = section.plots.length % 3 === 0 && section.pictures.length === 0 ? "three" : "two";
+    const grid = part.appendChild(element("div", "grid " + columns));
     for (const plot of section.plots) draw(grid, plot);
+    for (const picture of section.pictures) show(grid, picture);
   }
 })();

@@ -2,45 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
-#include <numbers>
 #include <utility>
-#include <variant>
 
-#include "models/run_scene.h"
-#include "models/scene_loader.h"
-#include "solver/result_file.h"
-#include "text_files.h"
+#include "models/ran_scene.h"
 
 namespace wishbone {
 namespace {
-
-/// A scene that has been run, and its results.
-class RanScene {
- public:
-  explicit RanScene(const std::string& text) : RanScene(load(text)) {}
-  explicit RanScene(Scene scene) : scene_(std::move(scene)), result_(run(scene_, files_ / "out.h5")) {
-    EXPECT_EQ(result_.summary.status, TransientSummary::Status::complete) << result_.summary.message;
-    file_ = std::make_unique<ResultFile>(files_ / "out.h5");
-  }
-  const ResultFile& file() const { return *file_; }
-  MatrixX read(const std::string& path) const { return file_->read(path); }
-  const WorkCounters& work() const { return result_.work; }
-  double meta(const std::string& name) const { return std::get<double>(file_->meta().at(name)); }
-
- private:
-  static Scene load(const std::string& text) {
-    const TextFiles files;
-    return load_scene(files.write("scene.yaml", text));
-  }
-  static RunResult run(const Scene& scene, const std::string& output) {
-    return run_scene(scene, compile(scene), {"scene.yaml", output, {}, {}});
-  }
-  TextFiles files_;
-  Scene scene_;
-  RunResult result_;
-  std::unique_ptr<ResultFile> file_;
-};
 
 TEST(PointOutput, OfAFreeBodyThatSpinsAboutAnAxisMovesOnItsScrew) {
   const RanScene run(R"(
@@ -158,6 +125,52 @@ TEST(SignalOutput, IsRecordedByNameWithItsUnit) {
   EXPECT_EQ(run.file().find("/signals/turn")->units, "rad");
   EXPECT_EQ(run.file().find("/signals/spin")->units, "rad/s");
   EXPECT_EQ(run.file().find("/signals/height")->units, "m");
+}
+
+TEST(LoadOutput, IsTheForceAndTheMomentInInertialAxes) {
+  // the top turns about z with 3 rad/s, and the follower with it
+  const RanScene run(R"(
+wishbone: 1
+gravity: [0, 0, 0]
+bodies:
+  top: {mass: 1, inertia: [1, 1, 2], position: [0, 0, 0], angular_velocity: [0, 0, 3]}
+loads:
+  dead: {body: top, at: [0, 0, 1], force: [0, 0, {expression: 2*t}]}
+  follower: {body: top, axes: body, moment: [0, 0, 5 N m]}
+  push: {body: top, axes: body, force: [4 N, 0, 0]}
+analysis: {duration: 1 s, rtol: 1e-11, atol: 1e-12}
+output: {interval: 0.1 s}
+)");
+  const MatrixX dead = run.read("/loads/dead/force"), moment = run.read("/loads/follower/moment"),
+                push = run.read("/loads/push/force");
+  for (Eigen::Index i = 0; i < dead.rows(); ++i) {
+    const double t = run.file().time()[i], angle = 3 * t + 0.5 * 5.0 / 2 * t * t;
+    EXPECT_LT((dead.row(i).transpose() - Vector3(0, 0, 2 * t)).norm(), 1e-15) << t;
+    EXPECT_LT((moment.row(i).transpose() - Vector3(0, 0, 5)).norm(), 1e-12) << t;
+    EXPECT_LT((push.row(i).transpose() - 4 * Vector3(std::cos(angle), std::sin(angle), 0)).norm(), 1e-8) << t;
+  }
+  for (const char* load : {"dead", "follower", "push"}) {
+    const Signal* force = run.file().find(std::string("/loads/") + load + "/force");
+    const Signal* torque = run.file().find(std::string("/loads/") + load + "/moment");
+    ASSERT_TRUE(force && torque) << load;
+    EXPECT_EQ(force->units, "N");
+    EXPECT_EQ(torque->units, "N m");
+    EXPECT_EQ(force->frame, "world");
+    EXPECT_EQ(torque->frame, "world");
+  }
+}
+
+TEST(LoadOutput, OfALoadThatIsNamedLikeASpringStandsBesideIt) {
+  const RanScene run(R"(
+wishbone: 1
+gravity: [0, 0, 0]
+bodies: {block: {mass: 1, inertia: [1, 1, 1], position: [1, 0, 0]}}
+springs: {pull: {from: {ground: [0, 0, 0]}, to: {body: block}, stiffness: 2, free_length: 1}}
+loads: {pull: {body: block, force: [3, 0, 0]}}
+analysis: {duration: 0.1 s}
+)");
+  EXPECT_EQ(run.read("/loads/pull/force")(0, 0), 3);
+  EXPECT_EQ(run.read("/forces/pull/force")(0, 0), 0);
 }
 
 TEST(JointForceOutput, OfFrictionAndLimitsAreTheirLaws) {

@@ -302,7 +302,7 @@ TEST(Car, ManoeuvresAreAsDescribed) {
       steered.motions[static_cast<std::size_t>(joint_named(steered, "front_left_steering").motion.front())];
   EXPECT_EQ(left.ackermann->side, Scene::Side::kLeft);
   EXPECT_DOUBLE_EQ(left.ackermann->wheelbase, 2.4);
-  EXPECT_THAT(steered.output.nodes.at(0).nodes, testing::ElementsAre(19, 20));
+  EXPECT_THAT(steered.output.flexible.at(0).nodes, testing::ElementsAre(19, 20));
   EXPECT_EQ(steered.vehicle->steering.size(), 2u);
 }
 

@@ -13,6 +13,7 @@
 #include "solver/ggl_residual.h"
 #include "solver/inverse_dynamics.h"
 #include "solver/loads.h"
+#include "solver/observer.h"
 #include "solver/partition.h"
 
 // Every allocation of this program, operator new and Eigen's own, passes here; sanitizers bring their own malloc.
@@ -106,6 +107,21 @@ TEST(Allocation, NoneInSolvingForHundredsOfClosureRows) {
   const Built m = testing::four_bars(100, RevoluteClosure{}, 6);
   ASSERT_EQ(testing::with_independent_rows(m).closure.kept.size(), 200u);
   expect_no_allocation(m);
+}
+
+TEST(Allocation, NoneInRecordingARowOfAFlexibleCar) {
+  const Built m = car(54);
+  Workspace ws = testing::with_independent_rows(m);
+  ASSERT_EQ(static_cast<int>(ws.closure.kept.size()), m.system.n_rows);
+  using enum FlexibleSignal;
+  ObserverOptions options;
+  options.flexible = {
+      {m.system.flexible[0].body,
+       {1, 7, 20},
+       {deflection_rates, modal_rates, modal_accelerations, energies, modal_energies, interface_forces}}};
+  options.recoveries = {{"stress", "Pa", m.system.flexible[0].body, {"1", "2"}, MatrixX::Ones(2, 54)}};
+  Observer observer(m.system, options);
+  EXPECT_EQ(allocations([&] { observer.sample(m.state, {}, ws); }), 0);
 }
 
 TEST(Allocation, NoneInCountingTurns) {

@@ -48,11 +48,13 @@ TEST(ResultFile, FilesWithoutTimeAreRefused) {
   EXPECT_THROW(ResultFile(folder / "modes.h5"), InputError);
 }
 
-TEST(ComponentNames, FollowTheShapeAndTheNodes) {
+TEST(ComponentNames, FollowTheShapeTheNodesAndTheRows) {
   EXPECT_THAT(component_names({"/a", {}, "m", "", "", {}}), ElementsAre(""));
   EXPECT_THAT(component_names({"/a", {3}, "m", "world", "", {}}), ElementsAre("x", "y", "z"));
   EXPECT_THAT(component_names({"/a", {4}, "1", "world", "", {}}), ElementsAre("w", "x", "y", "z"));
   EXPECT_THAT(component_names({"/a", {3}, "m", "", "modal coordinates", {}}), ElementsAre("1", "2", "3"));
+  EXPECT_THAT(component_names({"/a", {2}, "Pa", "", "stress", {{"rows", {"gauge 3", "7"}}}}),
+              ElementsAre("gauge 3", "7"));
   EXPECT_THAT(component_names({"/a", {2, 3}, "m", "chassis", "", {{"nodes", {"19", "20"}}}}),
               ElementsAre("node 19 x", "node 19 y", "node 19 z", "node 20 x", "node 20 y", "node 20 z"));
   EXPECT_THAT(component_names({"/a", {1, 3}, "m", "chassis", "", {}}), ElementsAre("1 x", "1 y", "1 z"));
