@@ -20,6 +20,7 @@ void check_input(const SparseMatrix& K, const MatrixX& rigid, const std::vector<
     if (freedom < 0 || freedom >= K.rows())
       reject(fmt::format("the structure has {} freedoms", K.rows()), fmt::format("freedom {}", freedom + 1),
              "name freedoms of the structure");
+  if (rigid.cols() == 0) return;
   const double resistance = (K * rigid).norm() / (K.norm() * rigid.norm());
   if (!(resistance <= 1e-8))
     reject("the stiffness must not resist rigid-body motion of a free body",
@@ -29,8 +30,9 @@ void check_input(const SparseMatrix& K, const MatrixX& rigid, const std::vector<
 
 /// As many freedoms as there are rigid motions, by pivoting so that holding them holds every one of these well.
 std::vector<bool> held_freedoms(const MatrixX& rigid) {
-  const Eigen::ColPivHouseholderQR<MatrixX> qr(rigid.transpose());
   std::vector<bool> held(static_cast<std::size_t>(rigid.rows()), false);
+  if (rigid.cols() == 0) return held;
+  const Eigen::ColPivHouseholderQR<MatrixX> qr(rigid.transpose());
   for (Eigen::Index i = 0; i < rigid.cols(); ++i)
     held[static_cast<std::size_t>(qr.colsPermutation().indices()[i])] = true;
   return held;

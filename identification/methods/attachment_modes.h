@@ -13,7 +13,8 @@ namespace wishbone {
 /// what is left of them beyond the kept normal modes, the residual attachment modes (combined_modes.h), is what these
 /// modes lack of the static flexibility x = sum_j psi_j psi_ja / lambda_j.
 ///
-/// K (n x n) is that of the free structure; `rigid` Psi_0 (n x k) are all its rigid-body motions, M-orthonormal. K is
+/// K (n x n) is that of the free structure; `rigid` Psi_0 (n x k) are all its rigid-body motions,
+/// M-orthonormal (none of a held structure, whose deflections under the forces alone these are). K is
 /// factored once, on a support that holds k well placed freedoms and bears nothing, for f_e is in equilibrium; any
 /// rigid motion that the support adds is taken out afterwards.
 ///

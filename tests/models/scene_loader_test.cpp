@@ -273,7 +273,7 @@ TEST(Car, RigidAndModalChassisAreHeldAtTheSamePlaces) {
   }
   const auto& flexible = *body_named(modal, "chassis").flexible;
   EXPECT_DOUBLE_EQ(flexible.block->size.prod() * flexible.block->density, 998.4);
-  EXPECT_EQ(flexible.modes, 54);
+  EXPECT_EQ(std::get<LowestModes>(flexible.modes).count, 54);
   EXPECT_EQ(depression({"modes=10", "damping=5 %"}).bodies[0].flexible->damping,
             std::vector<double>(10, 0.05));
 }
