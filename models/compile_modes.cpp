@@ -40,7 +40,8 @@ FlexibleModes model_modes_of(const Scene::Flexible& flexible, const std::vector<
   return reduce(identification_sections::block_model(b.size, b.elements, b.young, b.poisson, b.density));
 }
 
-std::string static_text(const Scene::StaticNodes& nodes, const std::vector<int>& interfaces, const char* kind) {
+std::string static_text(const Scene::StaticNodes& nodes, const std::vector<int>& interfaces,
+                        const char* kind) {
   if (nodes.empty()) return "";
   const std::size_t count = nodes_of(nodes, interfaces).size();
   return fmt::format(" and {} modes of {} {}{}", kind, count, nodes.interfaces ? "interface" : "node",
@@ -53,7 +54,8 @@ std::string choice_text(const Scene::Flexible& flexible, const std::vector<int>&
   text += describe(flexible.modes) + static_text(flexible.attachment, interfaces, "attachment") +
           static_text(flexible.constraint, interfaces, "constraint");
   if (modes.left_out > 0)
-    text += fmt::format("; {} static shape{} no more", modes.left_out, modes.left_out == 1 ? " adds" : "s add");
+    text +=
+        fmt::format("; {} static shape{} no more", modes.left_out, modes.left_out == 1 ? " adds" : "s add");
   return text;
 }
 

@@ -28,7 +28,8 @@ AnalyticalModel mesh_model(const HexahedralMesh& mesh, const IsotropicMaterial& 
 }
 
 /// The mass matrix; lumped, where the key says so. A matrix that is lumped already gives its nodal masses.
-void take_mass(SparseMatrix M, const std::optional<Value>& lumping, const Source& where, AnalyticalModel& model) {
+void take_mass(SparseMatrix M, const std::optional<Value>& lumping, const Source& where,
+               AnalyticalModel& model) {
   if (!lumping) {
     if (const auto masses = nodal_masses(M)) model.node_mass = *masses;
     model.M = std::move(M);
@@ -149,12 +150,14 @@ AnalyticalModel read_mesh(const Value& value, Files& files) {
   HexahedralMesh mesh{std::move(nodes.ids), std::move(nodes.position), {}};
   mesh.elements.resize(8, static_cast<Eigen::Index>(elements.size()));
   for (std::size_t e = 0; e < elements.size(); ++e)
-    mesh.elements.col(static_cast<Eigen::Index>(e)) = Eigen::Map<const Eigen::Matrix<int, 8, 1>>(elements[e].data());
+    mesh.elements.col(static_cast<Eigen::Index>(e)) =
+        Eigen::Map<const Eigen::Matrix<int, 8, 1>>(elements[e].data());
   const IsotropicMaterial material = scene_sections::read_material(keys.required("material"));
   AnalyticalModel model = within(list.where(), [&] { return mesh_model(mesh, material); });
   for (std::size_t i = 0; i < mesh.node_ids.size(); ++i)
     if (!(model.node_mass[static_cast<Eigen::Index>(i)] > 0))
-      table.refuse(fmt::format("node {} belongs to no element", mesh.node_ids[i]), "remove it from the table");
+      table.refuse(fmt::format("node {} belongs to no element", mesh.node_ids[i]),
+                   "remove it from the table");
   return model;
 }
 

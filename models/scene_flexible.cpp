@@ -33,8 +33,7 @@ void take_block(const Scene::Block& block, Scene::Flexible& flexible) {
 
 void take_model(const Value& value, Scene::Flexible& flexible, Scene& scene) {
   identification_sections::Files files;
-  auto model =
-      std::make_shared<const AnalyticalModel>(identification_sections::read_model(value, files));
+  auto model = std::make_shared<const AnalyticalModel>(identification_sections::read_model(value, files));
   if (model->node_mass.size() == 0)
     value.refuse("a flexible body needs lumped masses, and this mass matrix is not lumped",
                  "add 'lumping: row_sum' or 'lumping: diagonal' to the model");
@@ -58,7 +57,8 @@ ListedModes read_list(const Value& value, int elastic) {
   ListedModes listed;
   for (const Value& item : value.list()) listed.numbers.push_back(item.integer(1, elastic));
   std::sort(listed.numbers.begin(), listed.numbers.end());
-  if (listed.numbers.empty()) value.refuse("there are no modes in the list", "write 'modes: none' for a rigid body");
+  if (listed.numbers.empty())
+    value.refuse("there are no modes in the list", "write 'modes: none' for a rigid body");
   if (std::adjacent_find(listed.numbers.begin(), listed.numbers.end()) != listed.numbers.end())
     value.refuse("a mode is listed twice", "list each mode once");
   return listed;
@@ -89,7 +89,8 @@ Scene::StaticNodes read_static_nodes(const Value& value, const Scene::Flexible& 
       item.refuse("a node is listed twice", "list each node once");
     nodes.ids.push_back(id);
   }
-  if (nodes.ids.empty()) value.refuse("there are no nodes in the list", "name at least one, or write 'interfaces'");
+  if (nodes.ids.empty())
+    value.refuse("there are no nodes in the list", "name at least one, or write 'interfaces'");
   return nodes;
 }
 
@@ -99,7 +100,8 @@ void take_automatic(const Mapping& keys, Scene::Flexible& flexible) {
   flexible.modes = ModesBelow{read_limit(keys.required("below"))};
   flexible.attachment = {true, {}};
   if (const auto attachment = keys.optional("attachment"))
-    attachment->refuse("'modes: automatic' takes the attachment modes of every interface already", "remove the key");
+    attachment->refuse("'modes: automatic' takes the attachment modes of every interface already",
+                       "remove the key");
 }
 
 /// Normal modes of a block or model, and static shapes beside them.
@@ -120,8 +122,10 @@ void take_model_modes(const Mapping& keys, const Value& modes, Scene::Flexible& 
     modes.refuse_choice({"all", "automatic", "none"}, "the choices of modes");
 
   if (const auto below = keys.optional("below"); below && !flexible.automatic)
-    below->refuse("'below' belongs to 'modes: automatic'", "write 'modes: {below: ...}' for normal modes alone");
-  for (const auto& [key, nodes] : {std::pair("attachment", &flexible.attachment), {"constraint", &flexible.constraint}}) {
+    below->refuse("'below' belongs to 'modes: automatic'",
+                  "write 'modes: {below: ...}' for normal modes alone");
+  for (const auto& [key, nodes] :
+       {std::pair("attachment", &flexible.attachment), {"constraint", &flexible.constraint}}) {
     const auto value = keys.optional(key);
     if (!value || !nodes->empty()) continue;
     *nodes = read_static_nodes(*value, flexible);
@@ -134,8 +138,10 @@ std::optional<int> known_count(const Scene::Flexible& flexible) {
   if (!flexible.attachment.empty() || !flexible.constraint.empty()) return std::nullopt;
   if (flexible.is_rigid) return 0;
   if (const auto* lowest = std::get_if<LowestModes>(&flexible.modes)) return lowest->count;
-  if (const auto* listed = std::get_if<ListedModes>(&flexible.modes)) return static_cast<int>(listed->numbers.size());
-  if (std::holds_alternative<AllModes>(flexible.modes)) return 3 * static_cast<int>(flexible.node_ids.size()) - 6;
+  if (const auto* listed = std::get_if<ListedModes>(&flexible.modes))
+    return static_cast<int>(listed->numbers.size());
+  if (std::holds_alternative<AllModes>(flexible.modes))
+    return 3 * static_cast<int>(flexible.node_ids.size()) - 6;
   return std::nullopt;
 }
 
@@ -183,7 +189,8 @@ void refuse_static_shapes(const Mapping& keys) {
       value->refuse("static shapes need the stiffness of a model, and identified modes do not tell it",
                     "remove the key, or choose modes of a block or model");
   if (const auto below = keys.optional("below"))
-    below->refuse("'below' belongs to 'modes: automatic'", "choose among measured modes by 'modes: {measured: ...}'");
+    below->refuse("'below' belongs to 'modes: automatic'",
+                  "choose among measured modes by 'modes: {measured: ...}'");
 }
 
 void take_nodes(const Mapping& keys, bool needed, Scene::Flexible& flexible, Scene& scene) {
@@ -199,7 +206,8 @@ void take_nodes(const Mapping& keys, bool needed, Scene::Flexible& flexible, Sce
 }  // namespace
 
 Scene::Flexible read_flexible(const Value& value, Scene& scene) {
-  const Mapping keys(value, {"block", "material", "model", "modes", "below", "attachment", "constraint", "damping"});
+  const Mapping keys(value,
+                     {"block", "material", "model", "modes", "below", "attachment", "constraint", "damping"});
   Scene::Flexible flexible;
   const Value modes = keys.required("modes");
   const bool identified = modes.is_mapping() && !has_any(modes, {"lowest", "below", "list"});
@@ -209,7 +217,8 @@ Scene::Flexible read_flexible(const Value& value, Scene& scene) {
     take_identification(modes, flexible, scene);
   } else {
     take_model_modes(keys, modes, flexible);
-    if (const auto count = known_count(flexible)) flexible.damping.assign(static_cast<std::size_t>(*count), 0.0);
+    if (const auto count = known_count(flexible))
+      flexible.damping.assign(static_cast<std::size_t>(*count), 0.0);
   }
   if (const auto damping = keys.optional("damping"))
     take_damping(*damping, identified ? std::nullopt : known_count(flexible), flexible);

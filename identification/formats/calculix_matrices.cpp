@@ -18,7 +18,8 @@ constexpr std::int64_t kLargest = std::numeric_limits<int>::max();
 
 int small_integer(const LineReader& reader, std::string_view token) {
   const std::int64_t value = reader.integer(token);
-  if (value < 0 || value > kLargest) reader.reject(token, "the number is out of range", "use 0 to 2147483647");
+  if (value < 0 || value > kLargest)
+    reader.reject(token, "the number is out of range", "use 0 to 2147483647");
   return static_cast<int>(value);
 }
 
@@ -82,7 +83,8 @@ SparseMatrix read_calculix_matrix(const std::filesystem::path& path, const std::
   const auto index = [&](std::string_view word) {
     const std::int64_t row = reader.integer(word);
     if (row < 1 || row > static_cast<std::int64_t>(rows.size()))
-      reader.reject(word, fmt::format("there are {} rows", rows.size()), "take the .dof file of the same run");
+      reader.reject(word, fmt::format("there are {} rows", rows.size()),
+                    "take the .dof file of the same run");
     const int at = moved[static_cast<std::size_t>(row - 1)];
     if (at < 0) reader.reject(word, "its freedom is not wanted", "take the .dof file of the same run");
     return at;
@@ -111,7 +113,8 @@ SparseMatrix read_calculix_matrix(const std::filesystem::path& path, const std::
   return A;
 }
 
-CalculixMatrices read_calculix_matrices(const std::filesystem::path& job, const std::filesystem::path& nodes) {
+CalculixMatrices read_calculix_matrices(const std::filesystem::path& job,
+                                        const std::filesystem::path& nodes) {
   const auto file = [&](const char* extension) { return std::filesystem::path(job.string() + extension); };
   const std::vector<Freedom> rows = read_calculix_freedoms(file(".dof"));
   CalculixMatrices model;
@@ -121,7 +124,8 @@ CalculixMatrices read_calculix_matrices(const std::filesystem::path& job, const 
   for (std::size_t i = 0; i < model.node_ids.size(); ++i) {
     const auto found = std::lower_bound(all.ids.begin(), all.ids.end(), model.node_ids[i]);
     if (found == all.ids.end() || *found != model.node_ids[i])
-      throw InputError({nodes.string(), "the place of a node is not known", fmt::format("node {}", model.node_ids[i]),
+      throw InputError({nodes.string(), "the place of a node is not known",
+                        fmt::format("node {}", model.node_ids[i]),
                         "name the deck or result file of the same model"});
     model.node_position.col(static_cast<Eigen::Index>(i)) = all.position.col(found - all.ids.begin());
   }

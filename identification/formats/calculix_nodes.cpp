@@ -69,9 +69,11 @@ NodePlaces read_deck(const std::filesystem::path& path) {
     if (card == "*INCLUDE" || (in_nodes && in_capitals(line).find("INPUT") != std::string::npos))
       reader.reject(line, "nodes of other files are not read", "name a result file: 'nodes: JOB.frd'");
     if (card == "*TRANSFORM")
-      reader.reject(line, "freedoms along other axes are not understood", "remove the card and run the deck again");
+      reader.reject(line, "freedoms along other axes are not understood",
+                    "remove the card and run the deck again");
   }
-  if (nodes.empty()) reader.reject(reader.line(), "there are no nodes (*NODE)", "name the file that has them");
+  if (nodes.empty())
+    reader.reject(reader.line(), "there are no nodes (*NODE)", "name the file that has them");
   return nodes;
 }
 
