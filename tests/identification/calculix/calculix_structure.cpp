@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "identification/calculix/calculix_files.h"
+#include "identification/formats/calculix_matrices.h"
 #include "temporary_folder.h"
 
 namespace wishbone {
@@ -147,9 +148,9 @@ CalculixStructure analyse_with_calculix(const CalculixModel& model, int mode_cou
   data.validate();
 
   const std::string matrices = run_calculix(folder, "matrices", matrices_deck(free));
-  const std::vector<Freedom> rows = read_dof(matrices + ".dof");
-  structure.M = read_stored_matrix(matrices + ".mas", rows, data.freedoms);
-  structure.K = read_stored_matrix(matrices + ".sti", rows, data.freedoms);
+  CalculixMatrices stored = read_calculix_matrices(matrices, matrices + ".inp");
+  structure.M = std::move(stored.M);
+  structure.K = std::move(stored.K);
   return structure;
 }
 

@@ -79,14 +79,16 @@ TEST(AttachmentModes, AreRefusedForStructuresThatAreHeldOrLoose) {
   const TestStructure s = chassis();
   SparseMatrix held = s.K;
   held.coeffRef(2, 2) += 1e6;
-  EXPECT_EQ(message_of<InputError>([&] { attachment_modes(held, s.M, s.rigid, {0}); }).substr(0, 96),
-            "attachment modes: error: the stiffness must not resist rigid-body motion of a free body (got rel");
+  EXPECT_EQ(
+      message_of<InputError>([&] { attachment_modes(held, s.M, s.rigid, {0}); }).substr(0, 96),
+      "attachment modes: error: the stiffness must not resist rigid-body motion of a free body (got rel");
 
   Chain loose(8, 1, 1e4);
   for (const auto& [row, column, value] : {std::tuple(3, 3, 1e4), {4, 4, 1e4}, {3, 4, 0.0}, {4, 3, 0.0}})
     loose.K.coeffRef(row, column) = value;
-  EXPECT_EQ(message_of<InputError>([&] { attachment_modes(loose.K, loose.M, loose.rigid, {0}); }).substr(0, 81),
-            "attachment modes: error: the stiffness must resist every motion that is not rigid");
+  EXPECT_EQ(
+      message_of<InputError>([&] { attachment_modes(loose.K, loose.M, loose.rigid, {0}); }).substr(0, 81),
+      "attachment modes: error: the stiffness must resist every motion that is not rigid");
 
   EXPECT_EQ(message_of<InputError>([&] { attachment_modes(s.K, s.M, s.rigid, {60}); }),
             "attachment modes: error: the structure has 60 freedoms (got freedom 61)\n"
@@ -115,11 +117,15 @@ TEST(ConstraintModes, LeaveInnerFreedomsWithoutForceAndSpanRigidMotion) {
 
 TEST(ConstraintModes, AreRefusedWhereTheInterfacesDoNotHoldTheBody) {
   const TestStructure s = chassis();
-  EXPECT_EQ(message_of<InputError>([&] { constraint_modes(s.K, s.rigid, {0, 1, 2, 3, 4, 5}); }),
+  EXPECT_EQ(message_of<InputError>([&] {
+              constraint_modes(s.K, s.rigid, {0, 1, 2, 3, 4, 5});
+            }),
             "constraint modes: error: the interface nodes must hold the body, for all its other nodes follow "
             "statically (got 5 of 6 rigid motions are held)\n"
             "  name at least three nodes that do not lie on one line, or take attachment modes");
-  EXPECT_EQ(message_of<InputError>([&] { constraint_modes(s.K, s.rigid, {0, 1, 0}); }),
+  EXPECT_EQ(message_of<InputError>([&] {
+              constraint_modes(s.K, s.rigid, {0, 1, 0});
+            }),
             "constraint modes: error: an interface freedom is named twice (got freedom 1)\n"
             "  name each once");
 }

@@ -59,8 +59,8 @@ TEST(CombinedModes, KeepTheStaticsAtTheirInterfacesHoweverFewNormalModesThereAre
 TEST(CombinedModes, LeaveTheNormalModesAsTheyAre) {
   const TestStructure s = chassis();
   const Modes kept = s.elastic().lowest(10);
-  const CombinedModes all = combined_modes(s.K, s.M, s.rigid, kept,
-                                           attachment_modes(s.K, s.M, s.rigid, interfaces(s)), none(s));
+  const CombinedModes all =
+      combined_modes(s.K, s.M, s.rigid, kept, attachment_modes(s.K, s.M, s.rigid, interfaces(s)), none(s));
   EXPECT_EQ(all.modes.count(), 19);
   EXPECT_EQ(all.left_out, 0);
   for (Eigen::Index j = 0; j < 10; ++j) {
@@ -122,14 +122,14 @@ TEST(CombinedModes, AreTheClosestModesOfTheHeldBodyFromAboveWithConstraintModes)
   const MatrixX constraint = constraint_modes(s.K, s.rigid, interfaces(s));
   double before = std::numeric_limits<double>::infinity();
   for (const int kept : {0, 5, 10, 20, 40}) {
-    const CombinedModes all = combined_modes(s.K, s.M, s.rigid, s.elastic().lowest(kept), none(s), constraint);
+    const CombinedModes all =
+        combined_modes(s.K, s.M, s.rigid, s.elastic().lowest(kept), none(s), constraint);
     expect_valid(s, all);
     MatrixX X(s.n(), all.modes.count() + 6);
     X << s.rigid, all.modes.shapes;
     // on stiff springs in place of the joints
     const SparseMatrix K_held = s.K + SparseMatrix(support.D.transpose() * support.D) * 1e12;
-    const Modes held =
-        solve_eigenproblem(X.transpose() * (K_held * X), X.transpose() * (s.M * X));
+    const Modes held = solve_eigenproblem(X.transpose() * (K_held * X), X.transpose() * (s.M * X));
     EXPECT_GE(held.lambda[0], (1 - 1e-5) * truth.lambda[0]);
     EXPECT_LE(held.lambda[0], before * (1 + 1e-9));
     before = held.lambda[0];
@@ -154,10 +154,11 @@ TEST(CombinedModes, AreRefusedWhenTheModesAreOfAnotherStructure) {
   const TestStructure s = chassis();
   Modes foreign = s.elastic().lowest(10);
   foreign.shapes.col(3) = (s.elastic().shapes.col(3) + s.elastic().shapes.col(30)) / std::sqrt(2.0);
-  EXPECT_EQ(message_of<InputError>([&] {
-              combined_modes(s.K, s.M, s.rigid, foreign, attachment_modes(s.K, s.M, s.rigid, {0, 1}), none(s));
-            }).substr(0, 82),
-            "modes: error: the kept modes must be modes of this stiffness and mass (got couplin");
+  EXPECT_EQ(
+      message_of<InputError>([&] {
+        combined_modes(s.K, s.M, s.rigid, foreign, attachment_modes(s.K, s.M, s.rigid, {0, 1}), none(s));
+      }).substr(0, 82),
+      "modes: error: the kept modes must be modes of this stiffness and mass (got couplin");
 }
 
 }  // namespace

@@ -31,7 +31,8 @@ TEST(Lumping, FindsTheMassesOfALumpedMatrix) {
 TEST(Lumping, OfABarIsThatOfTheBooks) {
   // linear bar of mass m: m/6 [2 1; 1 2]; quadratic bar with its middle node second: m/30 [4 2 -1; 2 16 2; -1 2 4]
   const SparseMatrix linear = in_three_directions(MatrixX{{2, 1}, {1, 2}} * (5.0 / 6));
-  const SparseMatrix quadratic = in_three_directions(MatrixX{{4, 2, -1}, {2, 16, 2}, {-1, 2, 4}} * (6.0 / 30));
+  const SparseMatrix quadratic =
+      in_three_directions(MatrixX{{4, 2, -1}, {2, 16, 2}, {-1, 2, 4}} * (6.0 / 30));
   for (const Lumping lumping : {Lumping::row_sum, Lumping::diagonal}) {
     EXPECT_LE((lumped_masses(linear, lumping) - VectorX{{2.5, 2.5}}).norm(), 1e-14);
     EXPECT_LE((lumped_masses(quadratic, lumping) - VectorX{{1, 4, 1}}).norm(), 1e-14);
@@ -54,9 +55,10 @@ TEST(Lumping, RefusesMassesThatAreNotPositiveOrDifferByDirection) {
 
   SparseMatrix uneven = in_three_directions(MatrixX{{2, 1}, {1, 2}});
   uneven.coeffRef(5, 5) += 1;
-  EXPECT_EQ(message_of<InputError>([&] { lumped_masses(uneven, Lumping::row_sum); }),
-            "mass matrix: error: the lumped mass of node number 2 must be the same in x, y and z (got 3, 3, 4 kg)\n"
-            "  leave out what moves with a node in one direction only");
+  EXPECT_EQ(
+      message_of<InputError>([&] { lumped_masses(uneven, Lumping::row_sum); }),
+      "mass matrix: error: the lumped mass of node number 2 must be the same in x, y and z (got 3, 3, 4 kg)\n"
+      "  leave out what moves with a node in one direction only");
   EXPECT_EQ(message_of<InputError>([] { lumped_masses(SparseMatrix(4, 4), Lumping::row_sum); }),
             "mass matrix: error: it must have three rows and columns for every node (got 4 x 4)\n"
             "  list x, y, z of each node");
