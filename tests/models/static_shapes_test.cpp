@@ -108,13 +108,15 @@ TEST_F(StaticShapes, ConstraintModesAreTakenToo) {
       compile(load("modes: 2\n      attachment: [12]\n      constraint: interfaces"));
   const std::vector<ModeKind> kinds = kinds_of(compiled);
   EXPECT_EQ(kinds.size(), 2u + 3u + 6u);  // twelve displacements less six of rigid motion
-  EXPECT_EQ(compiled.modes.at(0).choice,
-            "the 2 lowest normal modes and attachment modes of 1 node and constraint modes of 4 interfaces; 6 "
-            "static shapes add no more");
-  EXPECT_EQ(message("modes: 2\n      constraint: [1, 2]"),
-            "scene.yaml:3:3: bodies.beam: constraint modes: error: the interface nodes must hold the body, for all "
-            "its other nodes follow statically (got 5 of 6 rigid motions are held)\n"
-            "  name at least three nodes that do not lie on one line, or take attachment modes");
+  EXPECT_EQ(
+      compiled.modes.at(0).choice,
+      "the 2 lowest normal modes and attachment modes of 1 node and constraint modes of 4 interfaces; 6 "
+      "static shapes add no more");
+  EXPECT_EQ(
+      message("modes: 2\n      constraint: [1, 2]"),
+      "scene.yaml:3:3: bodies.beam: constraint modes: error: the interface nodes must hold the body, for all "
+      "its other nodes follow statically (got 5 of 6 rigid motions are held)\n"
+      "  name at least three nodes that do not lie on one line, or take attachment modes");
 }
 
 TEST_F(StaticShapes, AutomaticIsAllBelowALimitAndTheAttachmentModesOfEveryInterface) {
@@ -141,7 +143,8 @@ TEST_F(StaticShapes, HaveTheDampingOfTheBodyOrOneEach) {
   EXPECT_EQ(modes_of(compile(load("modes: 2\n      attachment: [12]\n      damping: 3 %"))).damping_ratio,
             VectorX::Constant(5, 0.03));
   const VectorX each =
-      modes_of(compile(load("modes: 2\n      attachment: [12]\n      damping: [0, 0, 1, 1, 1]"))).damping_ratio;
+      modes_of(compile(load("modes: 2\n      attachment: [12]\n      damping: [0, 0, 1, 1, 1]")))
+          .damping_ratio;
   EXPECT_EQ(each, (VectorX{{0, 0, 1, 1, 1}}));
   EXPECT_EQ(message("modes: 2\n      attachment: [12]\n      damping: [0, 0]"),
             "scene.yaml:3:3: bodies.beam.flexible.damping: error: there are 2 damping ratios for 5 modes\n"
@@ -156,8 +159,8 @@ TEST_F(StaticShapes, NoModesAreTheRigidBodyToTheLastBit) {
   std::string inertia;
   for (const auto& [i, j] : {std::pair(0, 0), {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}})
     inertia += (inertia.empty() ? "" : ", ") + fmt::format("{:.17g}", beam.inertia(i, j));
-  const Scene rigid =
-      load(fmt::format("form: rigid\n    mass: {:.17g}\n    inertia: [{}]", beam.mass, inertia), "form: modal");
+  const Scene rigid = load(
+      fmt::format("form: rigid\n    mass: {:.17g}\n    inertia: [{}]", beam.mass, inertia), "form: modal");
 
   const auto run = [&](const Scene& scene, const std::string& name) {
     CompiledScene compiled = compile(scene);
