@@ -43,7 +43,7 @@ TEST(NormalModes, AreChosenByNumberFrequencyAndList) {
   };
   expect(LowestModes{3}, {0, 1, 2});
   expect(ListedModes{{1, 5, 54}}, {0, 4, 53});
-  expect(ModesBelow{std::sqrt(all.lambda[4]) * 1.0001}, {0, 1, 2, 3, 4});
+  expect(ModesBelow{std::sqrt(all.lambda[1]) * 1.0001}, {0, 1});  // two of equal frequency
   EXPECT_EQ(normal_modes(model, AllModes{}).count(), 54);
   EXPECT_EQ(normal_modes(model, ModesBelow{1e-3}).count(), 0);
 }

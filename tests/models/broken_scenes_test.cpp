@@ -211,15 +211,15 @@ constexpr Broken kCatalogue[] = {
            "'automatik')\n"
            "  did you mean 'automatic'?"},
     Broken{"ModesChosenTwice", "modes: all", "modes: {lowest: 3, below: 50 Hz}",
-           "scene.yaml:19:14: bodies.beam.flexible.modes: error: one of 'lowest', 'below' and 'list' chooses "
+           "scene.yaml:19:7: bodies.beam.flexible.modes: error: one of 'lowest', 'below' and 'list' chooses "
            "the "
            "modes\n"
            "  remove the others"},
     Broken{"ModeListedTwice", "modes: all", "modes: {list: [3, 1, 3]}",
-           "scene.yaml:19:21: bodies.beam.flexible.modes.list: error: a mode is listed twice\n"
+           "scene.yaml:19:15: bodies.beam.flexible.modes.list: error: a mode is listed twice\n"
            "  list each mode once"},
     Broken{"ListOfNoModes", "modes: all", "modes: {list: []}",
-           "scene.yaml:19:21: bodies.beam.flexible.modes.list: error: there are no modes in the list\n"
+           "scene.yaml:19:15: bodies.beam.flexible.modes.list: error: there are no modes in the list\n"
            "  write 'modes: none' for a rigid body"},
     Broken{"LimitAsAngularVelocity", "modes: all", "modes: {below: 50 rad/s}",
            "scene.yaml:19:22: bodies.beam.flexible.modes.below: error: wrong dimension: frequency [Hz] is "

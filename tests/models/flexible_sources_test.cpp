@@ -126,7 +126,7 @@ TEST_F(FlexibleSources, ServeAsTheModelOfAnIdentification) {
 
 TEST_F(FlexibleSources, AreLumpedWhereAsked) {
   EXPECT_EQ(message("model: {nodes: nodes.csv, stiffness: K.mtx, mass: consistent.mtx}"),
-            "scene.yaml:7:14: bodies.beam.flexible.model: error: a flexible body needs lumped masses, and "
+            "scene.yaml:7:7: bodies.beam.flexible.model: error: a flexible body needs lumped masses, and "
             "this mass "
             "matrix is not lumped\n"
             "  add 'lumping: row_sum' or 'lumping: diagonal' to the model");
@@ -136,7 +136,7 @@ TEST_F(FlexibleSources, AreLumpedWhereAsked) {
       modes("model: {nodes: nodes.csv, stiffness: K.mtx, mass: consistent.mtx, lumping: diagonal}");
   EXPECT_NEAR(diagonal.mass(), block_modes().mass(), 1e-12);
   EXPECT_EQ(message("model: {nodes: nodes.csv, stiffness: K.mtx, mass: M.mtx, lumping: rows}"),
-            "scene.yaml:7:79: bodies.beam.flexible.model.lumping: error: not one of the kinds of lumping "
+            "scene.yaml:7:73: bodies.beam.flexible.model.lumping: error: not one of the kinds of lumping "
             "(got 'rows')\n"
             "  the kinds of lumping are: row_sum, diagonal");
 }
@@ -152,7 +152,7 @@ TEST_F(FlexibleSources, AreRefusedWithPlaceValueAndRemedy) {
             "'none.mtx')\n"
             "  names are relative to the file that they stand in");
   EXPECT_EQ(message("model: {nodes: nodes.csv, stiffness: K.mtx}"),
-            "scene.yaml:7:14: bodies.beam.flexible.model: error: the masses of the model are not known\n"
+            "scene.yaml:7:7: bodies.beam.flexible.model: error: the masses of the model are not known\n"
             "  add 'mass: M.mtx', or a column 'mass' to the nodes");
   EXPECT_EQ(
       message(fmt::format("model: {{nodes: nodes.csv, elements: [[1, 2, 3]], material: {}}}", kMaterialText)),
@@ -177,11 +177,11 @@ TEST_F(FlexibleSources, AreRefusedWithPlaceValueAndRemedy) {
             "  remove the column 'mass' from the table");
   EXPECT_EQ(message("model: {nodes: nodes.csv, stiffness: K.mtx, mass: M.mtx}\n      material: " +
                     std::string(kMaterialText)),
-            "scene.yaml:7:14: bodies.beam.flexible.model: error: the nodes come either from a block or from "
+            "scene.yaml:7:7: bodies.beam.flexible.model: error: the nodes come either from a block or from "
             "a model\n"
             "  remove one of the two");
-  EXPECT_EQ(message("model: {nodes: nodes.csv, stiffness: M.mtx, mass: M.mtx}").substr(0, 118),
-            "scene.yaml:3:3: bodies.beam: flexible body: error: the stiffness must not resist rigid-body "
+  EXPECT_EQ(message("model: {nodes: nodes.csv, stiffness: M.mtx, mass: M.mtx}").substr(0, 119),
+            "scene.yaml:3:3: bodies.beam: free-free modes: error: the stiffness must not resist rigid-body "
             "motion of a "
             "free body (got");
 }

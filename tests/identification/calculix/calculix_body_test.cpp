@@ -23,11 +23,12 @@ class CalculixBody : public testing::Test {
     store_calculix_matrices(calculix_frame(), files_ / "", "frame");
   }
   CompiledScene compile_body(const std::string& model, const std::string& modes) const {
-    return compile(load_scene(files_.write("scene.yaml", "wishbone: 1\nbodies:\n  frame:\n    form: modal\n"
-                                                         "    position: [0, 0, 0]\n    flexible:\n      model: " +
-                                                             model + "\n      modes: " + modes +
-                                                             "\nloads:\n  push: {body: frame, node: 7, force: [0, 0, 1]}\n"
-                                                             "  pull: {body: frame, node: 1200, force: [0, 0, -1]}\n")));
+    return compile(load_scene(files_.write("scene.yaml",
+                                           "wishbone: 1\nbodies:\n  frame:\n    form: modal\n"
+                                           "    position: [0, 0, 0]\n    flexible:\n      model: " +
+                                               model + "\n      modes: " + modes +
+                                               "\nloads:\n  push: {body: frame, node: 7, force: [0, 0, 1]}\n"
+                                               "  pull: {body: frame, node: 1200, force: [0, 0, -1]}\n")));
   }
   std::string message(const std::string& model) const {
     return files_.relative(message_of<InputError>([&] { compile_body(model, "10"); }));
@@ -66,7 +67,8 @@ TEST_F(CalculixBody, IsLumpedNearTheFrequenciesOfTheConsistentModel) {
   const CalculixMatrices frame = read_calculix_matrices(files_ / "frame", files_ / "frame.inp");
   const Modes consistent = lowest_modes(frame.K, frame.M, 16);
   for (const char* lumping : {"row_sum", "diagonal"}) {
-    const ModeSet set = modes_of(compile_body(std::string("{calculix: frame, lumping: ") + lumping + "}", "10"));
+    const ModeSet set =
+        modes_of(compile_body(std::string("{calculix: frame, lumping: ") + lumping + "}", "10"));
     for (Eigen::Index j = 0; j < 10; ++j)
       EXPECT_NEAR(set.omega[j] / std::sqrt(consistent.lambda[6 + j]), 1, 0.02) << lumping << j;
   }
@@ -88,16 +90,19 @@ TEST_F(CalculixBody, TakesItsNodesFromResultsToo) {
 
 TEST_F(CalculixBody, IsRefusedWithPlaceValueAndRemedy) {
   EXPECT_EQ(message("{calculix: frame}"),
-            "scene.yaml:7:14: bodies.frame.flexible.model: error: a flexible body needs lumped masses, and this mass "
+            "scene.yaml:7:14: bodies.frame.flexible.model: error: a flexible body needs lumped masses, and "
+            "this mass "
             "matrix is not lumped\n"
             "  add 'lumping: row_sum' or 'lumping: diagonal' to the model");
-  EXPECT_EQ(message("{calculix: fram}"),
-            "scene.yaml:7:25: bodies.frame.flexible.model.calculix: error: there is no file fram.dof (got 'fram')\n"
-            "  names are relative to the file that they stand in");
+  EXPECT_EQ(
+      message("{calculix: fram}"),
+      "scene.yaml:7:25: bodies.frame.flexible.model.calculix: error: there is no file fram.dof (got 'fram')\n"
+      "  names are relative to the file that they stand in");
   files_.write("part.inp", "*NODE\n1, 0, 0, 0\n*INCLUDE, INPUT=mesh.inp\n");
-  EXPECT_EQ(message("{calculix: frame, nodes: part.inp, lumping: diagonal}"),
-            "part.inp:3 (byte 17): error: nodes of other files are not read (got '*INCLUDE, INPUT=mesh.inp')\n"
-            "  name a result file: 'nodes: JOB.frd'");
+  EXPECT_EQ(
+      message("{calculix: frame, nodes: part.inp, lumping: diagonal}"),
+      "part.inp:3 (byte 17): error: nodes of other files are not read (got '*INCLUDE, INPUT=mesh.inp')\n"
+      "  name a result file: 'nodes: JOB.frd'");
   files_.write("part.inp", "*NODE\n1, 0, 0, 0\n");
   EXPECT_EQ(message("{calculix: frame, nodes: part.inp, lumping: diagonal}"),
             "part.inp: error: the place of a node is not known (got node 2)\n"
@@ -108,9 +113,10 @@ TEST_F(CalculixBody, IsRefusedWhenItWasHeld) {
   CalculixModel held = calculix_frame();
   held.support.joints.push_back({5, Vector3::UnitY()});
   store_calculix_matrices(held, files_ / "", "held");
-  EXPECT_EQ(message("{calculix: held, lumping: diagonal}"),
-            "held.dof: error: the structure must be free in every direction of its nodes (got 5 y is missing)\n"
-            "  remove *BOUNDARY and equations from the deck, and run it again");
+  EXPECT_EQ(
+      message("{calculix: held, lumping: diagonal}"),
+      "held.dof: error: the structure must be free in every direction of its nodes (got 5 y is missing)\n"
+      "  remove *BOUNDARY and equations from the deck, and run it again");
 }
 
 }  // namespace
