@@ -48,6 +48,20 @@ void print_closures(const Plan& plan) {
     fmt::print("assembling moves a coordinate by {:.4g} (m or rad) at most\n", plan.displacement);
 }
 
+void print_modes(const std::vector<BodyModes>& bodies) {
+  for (const BodyModes& body : bodies) {
+    fmt::print("\nmodes of {}: {}\n", body.body, body.choice);
+    TextTable table({"kind", "mode", "f [Hz]", "zeta [%]", "effective mass [kg]", "at node"}, 1);
+    for (std::size_t j = 0; j < body.modes.size(); ++j) {
+      const ModeRow& mode = body.modes[j];
+      table.add_row({to_string(mode.kind), fmt::format("{}", j + 1), fmt::format("{:.6g}", mode.frequency),
+                     fmt::format("{:.4g}", 100 * mode.damping_ratio),
+                     fmt::format("{:.4g}", mode.effective_mass), fmt::format("{}", mode.node)});
+    }
+    fmt::print("{}", table.text());
+  }
+}
+
 void print_lines(const Scene& scene, const Plan& plan) {
   if (!scene.title.empty()) fmt::print("{}\n\n", scene.title);
   fmt::print("bodies                {:5d}   of which flexible {}\n", plan.bodies, plan.flexible_bodies);
@@ -63,6 +77,7 @@ void print_lines(const Scene& scene, const Plan& plan) {
   print_closures(plan);
   print_list("redundant closure rows, left out", plan.redundant_rows);
   print_list("tree", plan.tree);
+  print_modes(plan.modes);
   print_list("identified", plan.identified);
   print_list("kept", plan.kept);
   print_list("left out", plan.left_out);
@@ -91,6 +106,21 @@ nlohmann::ordered_json json_of(const std::vector<PlannedClosure>& closures) {
   return out;
 }
 
+nlohmann::ordered_json json_of(const std::vector<BodyModes>& bodies) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  for (const BodyModes& body : bodies) {
+    nlohmann::ordered_json modes = nlohmann::ordered_json::array();
+    for (const ModeRow& mode : body.modes)
+      modes.push_back({{"kind", to_string(mode.kind)},
+                       {"frequency", mode.frequency},
+                       {"damping_ratio", mode.damping_ratio},
+                       {"effective_mass", mode.effective_mass},
+                       {"node", mode.node}});
+    out.push_back({{"body", body.body}, {"choice", body.choice}, {"modes", modes}});
+  }
+  return out;
+}
+
 void print_json(const Plan& plan) {
   const nlohmann::ordered_json out{{"bodies", plan.bodies},
                                    {"flexible_bodies", plan.flexible_bodies},
@@ -109,6 +139,7 @@ void print_json(const Plan& plan) {
                                    {"form", plan.form},
                                    {"integrator", plan.integrator},
                                    {"tree", plan.tree},
+                                   {"modes", json_of(plan.modes)},
                                    {"identified", plan.identified},
                                    {"kept", plan.kept},
                                    {"left_out", plan.left_out}};

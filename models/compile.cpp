@@ -6,9 +6,6 @@
 
 #include "bodies/nodal_shapes.h"
 #include "core/yaml.h"
-#include "identification/elements/hexahedral_mesh.h"
-#include "identification/free_free_modes.h"
-#include "identification/mode_set_of.h"
 #include "models/compile_joints.h"
 #include "models/compile_loads.h"
 #include "models/compile_recoveries.h"
@@ -18,36 +15,15 @@
 namespace wishbone {
 namespace {
 
-/// The lowest modes of a body that the scene describes as a block of hexahedra.
-ModeSet block_modes(const Scene::Flexible& flexible) {
-  const Scene::Block& block = *flexible.block;
-  const HexahedralMesh mesh = make_block(block.size, block.elements);
-  return free_free_modes(mesh, {block.young, block.poisson, block.density}).lowest(flexible.modes);
-}
-
-/// The ratios that the scene gives; those of the modes where it gives none.
-void set_damping(const Scene::Body& body, ModeSet& modes) {
-  if (const auto& ratio = body.flexible->identified_damping) modes.damping_ratio.setConstant(*ratio);
-  const std::vector<double>& ratios = body.flexible->damping;
-  if (ratios.empty()) return;
-  const auto count = static_cast<Eigen::Index>(ratios.size());
-  if (count != modes.mode_count())
-    throw InputError(
-        {body.where.text() + ".flexible.damping",
-         fmt::format("there are {} damping ratios for {} identified modes", count, modes.mode_count()), "",
-         "give one ratio for all modes, or one per mode"});
-  modes.damping_ratio = Eigen::Map<const VectorX>(ratios.data(), count);
-}
-
 /// One scene on its way into a SystemBuilder.
 class Compiler {
  public:
-  explicit Compiler(const Scene& scene) : scene_(scene), joints_(scene, builder_) {
+  explicit Compiler(const Scene& scene) : scene_(scene), joints_(scene, builder_), modes_(scene) {
     builder_.gravity = scene.gravity;
   }
 
   CompiledScene compile() && {
-    for (const Scene::Body& body : scene_.bodies) add_body(body);
+    for (int b = 0; b < static_cast<int>(scene_.bodies.size()); ++b) add_body(b);
     joints_.add_joints();
     joints_.add_closures();
     for (const Scene::Spring& spring : scene_.springs)
@@ -56,7 +32,8 @@ class Compiler {
     for (const Scene::Tire& tire : scene_.tires) add_tire(tire);
     add_loads(scene_, joints_, builder_);
     CompiledScene compiled;
-    compiled.identified = std::move(identified_);
+    compiled.identified = std::move(modes_.identified);
+    compiled.modes = std::move(modes_.tables);
     std::tie(compiled.system, compiled.initial) = std::move(builder_).build();
     check_recoveries(scene_, builder_, compiled.system);
     compiled.observer = observer();
@@ -67,10 +44,11 @@ class Compiler {
  private:
   Vector3 world_point(const Vector3& p_DP) const { return scene_.X_WD * p_DP; }
 
-  void add_body(const Scene::Body& body) {
+  void add_body(int number) {
+    const Scene::Body& body = scene_.bodies[static_cast<std::size_t>(number)];
     const Pose X_WB = scene_.X_WD * body.X_DB;
     const int index = body.is_flexible()
-                          ? builder_.add_flexible_body(body.name, shapes_of(body), X_WB, terms_of(body))
+                          ? builder_.add_flexible_body(body.name, shapes_of(number), X_WB, terms_of(body))
                           : builder_.add_body(body.name, body.mass, body.inertia, X_WB);
     builder_.set_velocity(index, body.v_WBo, body.w_WB_B);
   }
@@ -79,8 +57,9 @@ class Compiler {
     return body.flexible->source_terms ? InertiaTerms::source : InertiaTerms::consistent;
   }
 
-  ShapeSet shapes_of(const Scene::Body& body) {
-    const ModeSet modes = modes_of(body);
+  ShapeSet shapes_of(int number) {
+    const Scene::Body& body = scene_.bodies[static_cast<std::size_t>(number)];
+    const ModeSet modes = modes_.modes_of(number);
     return within(body.where, [&] {
       modes.validate();
       if (body.form == Scene::BodyForm::kModal) return wishbone::shapes_of(modes);
@@ -88,16 +67,6 @@ class Compiler {
       const auto& axes = body.flexible->fixed_axes;
       return axes ? fixed_axis_shapes(model, *axes) : mean_axis_shapes(model);
     });
-  }
-
-  ModeSet modes_of(const Scene::Body& body) {
-    ModeSet modes = within(body.where, [&] {
-      if (!body.flexible->identification) return block_modes(*body.flexible);
-      identified_.push_back({body.name, identify(*body.flexible->identification)});
-      return mode_set_of(identified_.back().identification.modes);
-    });
-    set_damping(body, modes);
-    return modes;
   }
 
   MarkerIndex marker(const Scene::Point& point) {
@@ -209,7 +178,7 @@ class Compiler {
   const Scene& scene_;
   SystemBuilder builder_;
   JointCompiler joints_;
-  std::vector<IdentifiedBody> identified_;
+  ModeCompiler modes_;
 };
 
 }  // namespace

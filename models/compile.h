@@ -3,19 +3,13 @@
 #include <string>
 #include <vector>
 
-#include "identification/identify.h"
+#include "models/compile_modes.h"
 #include "models/scene.h"
 #include "solver/observer.h"
 #include "solver/system.h"
 #include "solver/transient.h"
 
 namespace wishbone {
-
-/// What was identified for a flexible body.
-struct IdentifiedBody {
-  std::string body;
-  Identification identification;
-};
 
 /// A scene made ready to run.
 struct CompiledScene {
@@ -24,6 +18,7 @@ struct CompiledScene {
   ObserverOptions observer;
   TransientOptions transient;
   std::vector<IdentifiedBody> identified;
+  std::vector<BodyModes> modes;  ///< of flexible bodies
 };
 
 /// Builds the System of a scene: places the design pose, prepares the modes of flexible bodies, keeps what this scene needs and

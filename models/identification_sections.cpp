@@ -7,9 +7,6 @@
 #include <numbers>
 #include <numeric>
 
-#include "identification/elements/element_edges.h"
-#include "identification/elements/hexahedral_mesh.h"
-#include "identification/formats/csv_modal_data.h"
 #include "identification/formats/matrix_market.h"
 #include "identification/formats/modal_file.h"
 #include "models/scene_sections.h"
@@ -135,6 +132,12 @@ std::filesystem::path Files::note(const Value& name) {
   return path;
 }
 
+std::filesystem::path Files::note(const Value& name, std::initializer_list<const char*> extensions) {
+  const std::filesystem::path path = path_of(name);
+  for (const char* extension : extensions) add(path.string() + extension, name);
+  return path;
+}
+
 std::filesystem::path Files::note_modal_data(const Value& name) {
   const std::filesystem::path path = path_of(name);
   for (const auto& file : within(name.where(), [&] { return modal_data_files(path); })) add(file, name);
@@ -207,52 +210,6 @@ StructureChange read_change(const Value& value, const std::vector<int>& ids, con
   if (const auto matrix = keys.optional("stiffness_matrix")) change.dK = read_symmetric(*matrix, files);
   if (change.empty()) keys.refuse("there is no change", "name masses, springs or matrices");
   return change;
-}
-
-AnalyticalModel block_model(const Vector3& size, const Eigen::Vector3i& elements, double young,
-                            double poisson, double density) {
-  const HexahedralMesh mesh = make_block(size, elements);
-  const IsotropicMaterial material{young, poisson, density};
-  AnalyticalModel model;
-  model.node_ids = mesh.node_ids;
-  model.node_position = mesh.nodes;
-  model.node_mass = lumped_mass(mesh, density);
-  model.M = lumped_mass_matrix(model.node_mass);
-  model.K = stiffness_matrix(mesh, material);
-  model.lines = element_edges(mesh);
-  return model;
-}
-
-AnalyticalModel read_model(const Value& value, Files& files) {
-  if (value.is_mapping() && value.node()->find("block")) {
-    const Mapping keys(value, {"block", "material"});
-    const Scene::Block block = scene_sections::read_block(keys.required("block"), keys.required("material"));
-    return block_model(block.size, block.elements, block.young, block.poisson, block.density);
-  }
-  const Mapping keys(value, {"nodes", "stiffness", "mass"});
-  const NodeTable nodes = read_csv_nodes(files.note(keys.required("nodes")));
-  const auto read = [&](const Value& name) {
-    SparseMatrix A = read_symmetric(name, files);
-    if (A.rows() != nodes.position.size())
-      name.refuse(fmt::format("{} nodes have {} freedoms, this matrix has {} rows", nodes.ids.size(),
-                              nodes.position.size(), A.rows()),
-                  "give three freedoms to every node, in the order of the table");
-    return A;
-  };
-  AnalyticalModel model;
-  model.node_ids = nodes.ids;
-  model.node_position = nodes.position;
-  model.K = read(keys.required("stiffness"));
-  if (const auto mass = keys.optional("mass")) {
-    model.M = read(*mass);
-  } else if (nodes.mass.size() > 0) {
-    model.node_mass = nodes.mass;
-    model.M = lumped_mass_matrix(nodes.mass);
-  } else {
-    keys.refuse("the masses of the model are not known",
-                "add 'mass: M.mtx', or a column 'mass' to the nodes");
-  }
-  return model;
 }
 
 MeasurementNoise read_noise(const Value& value) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@ class Files {
   /// The path of a file named by a value, relative to the document that the value stands in. Throws InputError there
   /// when there is no such file.
   std::filesystem::path note(const Value& name);
+  /// The same for a name that stands for files of these extensions.
+  std::filesystem::path note(const Value& name, std::initializer_list<const char*> extensions);
   /// The same for modal data, whose name may stand for several tables.
   std::filesystem::path note_modal_data(const Value& name);
   const std::vector<std::string>& read() const { return read_; }
@@ -38,6 +41,7 @@ void check_nodes(const Value& section, const std::vector<int>& ids);
 /// Springs between nodes act along their connection; `ids` and `position` (3 x n) are those of the structure.
 StructureChange read_change(const Value& value, const std::vector<int>& ids, const Matrix3X& position,
                             Files& files);
+/// A block, matrices, a listed mesh, or what CalculiX stored.
 AnalyticalModel read_model(const Value& value, Files& files);
 /// A square symmetric matrix from a file.
 SparseMatrix read_symmetric(const Value& name, Files& files);

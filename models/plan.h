@@ -31,6 +31,7 @@ struct Plan {
   int force_elements = 0;
   std::string form, integrator;
   std::vector<std::string> tree;        ///< one line a body: joint, parent, freedoms
+  std::vector<BodyModes> modes;         ///< what the flexible bodies deform in
   std::vector<std::string> identified;  ///< one line a body whose modes were identified: from what
   std::vector<std::string> kept;        ///< what the scene makes necessary
   std::vector<std::string> left_out;    ///< what it does not need, and why

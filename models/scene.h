@@ -11,11 +11,13 @@
 #include "core/function.h"
 #include "core/source.h"
 #include "core/spatial.h"
+#include "identification/mode_choice.h"
 #include "joints/joint_kind.h"
 #include "solver/flexible_signal.h"
 
 namespace wishbone {
 
+struct AnalyticalModel;
 struct IdentificationTask;
 
 /// What the user wrote, checked and in SI units; no behaviour. Everything is described in the design pose and
@@ -43,17 +45,30 @@ struct Scene {
   /// How the axes of a flexible body follow it: mean axes, or fixed on three of its nodes.
   using FixedAxes = std::array<int, 3>;
 
-  /// Nodes of a body and where its elastic modes come from: the block, or an identification.
+  /// Nodes that static shapes are taken at.
+  struct StaticNodes {
+    bool interfaces = false;  ///< those that joints, closures, springs and loads take hold of
+    std::vector<int> ids;     ///< or these
+
+    bool empty() const { return !interfaces && ids.empty(); }
+  };
+
+  /// Nodes of a body and where its elastic modes come from: a block, a model, or an identification.
   struct Flexible {
     std::vector<int> node_ids;
     Matrix3X node_position;  ///< 3 x n, body axes, from the mass centre [m]
     std::optional<Block> block;
-    std::shared_ptr<const IdentificationTask> identification;  ///< null: modes of the block
-    int modes = 0;                                             ///< lowest elastic modes kept of the block's
+    std::shared_ptr<const AnalyticalModel> model;              ///< instead of a block; masses are lumped
+    std::shared_ptr<const IdentificationTask> identification;  ///< null: modes of the block or model
+    bool is_rigid = false;                                     ///< no modes at all
+    ModeChoice modes;                    ///< normal modes kept of those of the block or model
+    bool automatic = false;              ///< `modes` and `attachment` are the program's choice
+    StaticNodes attachment, constraint;  ///< beside normal modes
     std::vector<double> damping;  ///< damping ratio of each kept mode; empty: as identified, or one for all
-    std::optional<double> identified_damping;  ///< one damping ratio for all identified modes
-    std::optional<FixedAxes> fixed_axes;       ///< node ids; empty: mean axes
-    bool source_terms = false;                 ///< inertial coupling as in the source, not all that there is
+    /// One damping ratio for all modes, when their number is not known yet.
+    std::optional<double> common_damping;
+    std::optional<FixedAxes> fixed_axes;  ///< node ids; empty: mean axes
+    bool source_terms = false;            ///< inertial coupling as in the source, not all that there is
   };
 
   enum class BodyForm { kRigid, kModal, kNodal };

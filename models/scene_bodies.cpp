@@ -4,123 +4,20 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 
-#include "identification/body_nodes.h"
-#include "identification/elements/hexahedral_mesh.h"
-#include "models/identification_loader.h"
+#include "bodies/mode_set.h"
 #include "models/identification_sections.h"
 #include "models/scene_sections.h"
 
 namespace wishbone::scene_sections {
 namespace {
 
-double read_poisson(const Value& value) {
-  const double poisson = value.number(kRatio);
-  if (!(poisson > -1 && poisson < 0.5))
-    value.refuse("Poisson's ratio must be between -1 and 0.5", "metals have 0.3");
-  return poisson;
-}
-
-/// One ratio for all modes, or one per kept mode.
-std::vector<double> read_damping(const Value& value, int modes) {
-  if (!value.is_list())
-    return std::vector<double>(static_cast<std::size_t>(modes), value.non_negative(kRatio));
-  std::vector<double> ratios;
-  for (const Value& item : value.list()) ratios.push_back(item.non_negative(kRatio));
-  if (ratios.size() != static_cast<std::size_t>(modes)) {
-    value.refuse(fmt::format("there are {} damping ratios for {} modes", ratios.size(), modes),
-                 "give one ratio for all modes, or one per mode");
-  }
-  return ratios;
-}
-
-/// The modes of a block come from a dense eigenproblem of three freedoms a node, whose cost grows with the cube.
-constexpr int kMostNodes = 500;
-
-void take_block(const Scene::Block& block, Scene::Flexible& flexible) {
-  const HexahedralMesh mesh = make_block(block.size, block.elements);
-  flexible.block = block;
-  flexible.node_ids = mesh.node_ids;
-  flexible.node_position = mesh.nodes;
-}
-
-void take_lowest_modes(const Value& modes, const std::optional<Value>& damping, Scene::Flexible& flexible) {
-  const int elastic = 3 * static_cast<int>(flexible.node_ids.size()) - 6;
-  flexible.modes = modes.is_word("all") ? elastic : modes.integer(1, elastic);
-  flexible.damping.assign(static_cast<std::size_t>(flexible.modes), 0.0);
-  if (damping) flexible.damping = read_damping(*damping, flexible.modes);
-}
-
-/// The modes are identified, and the nodes with them; a block is the model unless the identification has its own.
-void take_identification(const Value& section, Scene::Flexible& flexible, Scene& scene) {
-  std::optional<AnalyticalModel> model;
-  if (flexible.block) {
-    const Scene::Block& b = *flexible.block;
-    model = identification_sections::block_model(b.size, b.elements, b.young, b.poisson, b.density);
-  }
-  LoadedIdentification loaded = read_identification(section, model ? &*model : nullptr);
-  if (loaded.task.goal == Goal::kHeld)
-    section.refuse("a flexible body needs free-free modes", "write 'find: free', 'changed' or 'corrected'");
-  const BodyNodes nodes = within(section.where(), [&] { return body_nodes(loaded.task); });
-  flexible.node_ids = nodes.ids;
-  flexible.node_position = nodes.position;
-  scene.data_files.insert(scene.data_files.end(), loaded.files.begin(), loaded.files.end());
-  flexible.identification = std::make_shared<const IdentificationTask>(std::move(loaded.task));
-}
-
-/// One ratio for all modes or a list, whose length is known to be right when the modes have been identified.
-void take_identified_damping(const Value& value, Scene::Flexible& flexible) {
-  if (!value.is_list()) {
-    flexible.identified_damping = value.non_negative(kRatio);
-    return;
-  }
-  for (const Value& item : value.list()) flexible.damping.push_back(item.non_negative(kRatio));
-  if (flexible.damping.empty())
-    value.refuse("there are no damping ratios in the list", "remove the key to keep those of the modes");
-}
-
-/// `mean`, or {fixed: [o, i, j]}.
-std::optional<Scene::FixedAxes> read_axes(const Value& value, const std::vector<int>& node_ids) {
-  if (value.is_word("mean")) return std::nullopt;
-  const Mapping keys(value, {"fixed"});
-  const Value fixed = keys.required("fixed");
-  const std::vector<Value> items = fixed.list();
-  if (items.size() != 3)
-    fixed.refuse("axes are fixed on three nodes",
-                 "name the node of all three directions, one along a line, one off it");
-  Scene::FixedAxes nodes{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    nodes[k] = items[k].integer(1, std::numeric_limits<int>::max());
-    if (std::find(node_ids.begin(), node_ids.end(), nodes[k]) == node_ids.end())
-      items[k].refuse("the body has no such node", "name one of its nodes");
-  }
-  return nodes;
-}
-
-Scene::Flexible read_shapes(const Mapping& keys, Scene& scene) {
-  Scene::Flexible flexible;
-  const Value modes = keys.required("modes");
-  if (!modes.is_mapping() || keys.has("block"))
-    take_block(read_block(keys.required("block"), keys.required("material")), flexible);
-  const auto damping = keys.optional("damping");
-  if (!modes.is_mapping()) {
-    take_lowest_modes(modes, damping, flexible);
-    return flexible;
-  }
-  take_identification(modes, flexible, scene);
-  if (damping) take_identified_damping(*damping, flexible);
-  return flexible;
-}
-
-Scene::Flexible read_flexible(const Value& value, Scene& scene) {
-  const Mapping keys(value, {"block", "material", "modes", "damping", "axes", "inertia"});
-  Scene::Flexible flexible = read_shapes(keys, scene);
-  if (const auto axes = keys.optional("axes")) flexible.fixed_axes = read_axes(*axes, flexible.node_ids);
-  if (const auto inertia = keys.optional("inertia"))
-    flexible.source_terms =
-        inertia->choice<bool>({{"consistent", false}, {"source", true}}, "the inertial couplings of a body");
-  return flexible;
+/// `modes: none`: the body is rigid, its mass and inertia those of its nodes.
+void make_rigid(Scene::Body& body) {
+  const VectorX mass = node_masses(*body.flexible);
+  body.form = Scene::BodyForm::kRigid;
+  body.mass = mass.sum();
+  body.inertia = point_mass_inertia(mass, body.flexible->node_position);
 }
 
 Scene::Body read_body_keys(const std::string& name, const Value& value, Scene& scene) {
@@ -147,6 +44,7 @@ Scene::Body read_body_keys(const std::string& name, const Value& value, Scene& s
   }
   if (!body.is_flexible() || keys.has("mass")) body.mass = keys.required("mass").positive(kMass);
   if (!body.is_flexible() || keys.has("inertia")) body.inertia = read_inertia(keys.required("inertia"));
+  if (body.is_flexible() && body.flexible->is_rigid) make_rigid(body);
 
   body.X_DB.p = keys.required("position").vector3(kLength);
   if (const auto orientation = keys.optional("orientation")) {
@@ -190,31 +88,6 @@ Matrix3 read_inertia(const Value& value) {
                  "the largest must not exceed the sum of the two others");
   }
   return inertia;
-}
-
-Scene::Block read_block(const Value& value, const Value& material_value) {
-  Scene::Block block;
-  const Mapping keys(value, {"size", "elements"});
-  const Value size = keys.required("size");
-  block.size = size.vector3(kLength);
-  if (!(block.size.minCoeff() > 0))
-    size.refuse("the edges of the block must be positive", "give three lengths above zero");
-  const Value elements = keys.required("elements");
-  const std::vector<Value> counts = elements.list();
-  if (counts.size() != 3) elements.refuse("three numbers of elements are wanted", "write [nx, ny, nz]");
-  constexpr int kMostElements = 100;
-  for (int i = 0; i < 3; ++i)
-    block.elements[i] = counts[static_cast<std::size_t>(i)].integer(1, kMostElements);
-  if (const int nodes = (block.elements + Eigen::Vector3i::Ones()).prod(); nodes > kMostNodes)
-    elements.refuse(fmt::format("the block has {} nodes, more than the {} whose modes can be computed", nodes,
-                                kMostNodes),
-                    "take fewer elements");
-
-  const Mapping material(material_value, {"young", "poisson", "density"});
-  block.young = material.required("young").positive(kPressure);
-  block.poisson = read_poisson(material.required("poisson"));
-  block.density = material.required("density").positive(kDensity);
-  return block;
 }
 
 Vector3 node_place(const Scene::Body& body, int node) {

@@ -10,6 +10,7 @@
 
 #include "core/did_you_mean.h"
 #include "core/yaml.h"
+#include "identification/elements/hexahedron.h"
 #include "models/scene.h"
 
 /// Readers of the sections of a scene file, for the scene loader only. Each fills its part of the scene and
@@ -60,6 +61,15 @@ Scene::Point read_end(const Scene& scene, const Value& value);
 
 /// {axis, angle} as a rotation matrix.
 Matrix3 read_rotation(const Value& axis, const Value& angle);
+
+/// Nodes and modes of a flexible body.
+Scene::Flexible read_flexible(const Value& value, Scene& scene);
+
+/// Lumped masses of the nodes of a block or model (n) [kg].
+VectorX node_masses(const Scene::Flexible& flexible);
+
+/// {young, poisson, density}.
+IsotropicMaterial read_material(const Value& value);
 
 /// The block of hexahedra that the keys `block` and `material` describe.
 Scene::Block read_block(const Value& block, const Value& material);

@@ -206,6 +206,66 @@ constexpr Broken kCatalogue[] = {
            "scene.yaml:19:14: bodies.beam.flexible.modes: error: a whole number from 1 to 30 is wanted here "
            "(got '31')\n"
            "  give one of them"},
+    Broken{"MisspeltModes", "modes: all", "modes: automatik",
+           "scene.yaml:19:14: bodies.beam.flexible.modes: error: not one of the choices of modes (got "
+           "'automatik')\n"
+           "  did you mean 'automatic'?"},
+    Broken{"ModesChosenTwice", "modes: all", "modes: {lowest: 3, below: 50 Hz}",
+           "scene.yaml:19:7: bodies.beam.flexible.modes: error: one of 'lowest', 'below' and 'list' chooses "
+           "the "
+           "modes\n"
+           "  remove the others"},
+    Broken{"ModeListedTwice", "modes: all", "modes: {list: [3, 1, 3]}",
+           "scene.yaml:19:15: bodies.beam.flexible.modes.list: error: a mode is listed twice\n"
+           "  list each mode once"},
+    Broken{"ListOfNoModes", "modes: all", "modes: {list: []}",
+           "scene.yaml:19:15: bodies.beam.flexible.modes.list: error: there are no modes in the list\n"
+           "  write 'modes: none' for a rigid body"},
+    Broken{"LimitAsAngularVelocity", "modes: all", "modes: {below: 50 rad/s}",
+           "scene.yaml:19:22: bodies.beam.flexible.modes.below: error: wrong dimension: frequency [Hz] is "
+           "wanted, "
+           "this is angular velocity [rad/s] (got '50 rad/s')\n"
+           "  give it in Hz, or in a unit that converts to it"},
+    Broken{"AutomaticWithoutLimit", "modes: all", "modes: automatic",
+           "scene.yaml:16:5: bodies.beam.flexible: error: the key 'below' is missing\n"
+           "  add 'below: ...' here"},
+    Broken{"AutomaticWithItsOwnNodes", "modes: all",
+           "modes: automatic\n      below: 50 Hz\n      attachment: [1]",
+           "scene.yaml:21:7: bodies.beam.flexible.attachment: error: 'modes: automatic' takes the attachment "
+           "modes "
+           "of every interface already\n"
+           "  remove the key"},
+    Broken{
+        "LimitWithoutAutomatic", "modes: all", "modes: all\n      below: 50 Hz",
+        "scene.yaml:20:14: bodies.beam.flexible.below: error: 'below' belongs to 'modes: automatic' (got '50 "
+        "Hz')\n"
+        "  write 'modes: {below: ...}' for normal modes alone"},
+    Broken{"AttachmentToNowhere", "modes: all", "modes: all\n      attachment: everywhere",
+           "scene.yaml:20:19: bodies.beam.flexible.attachment: error: the nodes are neither 'interfaces' nor "
+           "a list "
+           "(got 'everywhere')\n"
+           "  write 'interfaces', or [1, 2, 3]"},
+    Broken{
+        "AttachmentToNoSuchNode", "modes: all", "modes: all\n      attachment: [1, 13]",
+        "scene.yaml:20:23: bodies.beam.flexible.attachment[2]: error: the body has no such node (got '13')\n"
+        "  its nodes are 1 to 12"},
+    Broken{"ConstraintNamedTwice", "modes: all", "modes: all\n      constraint: [1, 2, 1]",
+           "scene.yaml:20:26: bodies.beam.flexible.constraint[3]: error: a node is listed twice (got '1')\n"
+           "  list each node once"},
+    Broken{"AttachmentOfARigidBody", "modes: all", "modes: none\n      attachment: interfaces",
+           "scene.yaml:20:19: bodies.beam.flexible.attachment: error: a body without modes is rigid (got "
+           "'interfaces')\n"
+           "  remove the key, or choose modes"},
+    Broken{"AttachmentOfIdentifiedModes", "modes: all",
+           "modes: {measured: {from: model}}\n      attachment: interfaces",
+           "scene.yaml:20:19: bodies.beam.flexible.attachment: error: static shapes need the stiffness of a "
+           "model, "
+           "and identified modes do not tell it (got 'interfaces')\n"
+           "  remove the key, or choose modes of a block or model"},
+    Broken{"BlockAndModel", "modes: all", "modes: all\n      model: {nodes: nodes.csv, stiffness: K.mtx}",
+           "scene.yaml:20:7: bodies.beam.flexible.model: error: the nodes come either from a block or from a "
+           "model\n"
+           "  remove one of the two"},
     Broken{"DampingOfOtherLength", "damping: 1 %", "damping: [1 %, 2 %]",
            "scene.yaml:20:7: bodies.beam.flexible.damping: error: there are 2 damping ratios for 30 modes\n"
            "  give one ratio for all modes, or one per mode"},

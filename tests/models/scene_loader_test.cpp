@@ -273,7 +273,7 @@ TEST(Car, RigidAndModalChassisAreHeldAtTheSamePlaces) {
   }
   const auto& flexible = *body_named(modal, "chassis").flexible;
   EXPECT_DOUBLE_EQ(flexible.block->size.prod() * flexible.block->density, 998.4);
-  EXPECT_EQ(flexible.modes, 54);
+  EXPECT_EQ(std::get<LowestModes>(flexible.modes).count, 54);
   EXPECT_EQ(depression({"modes=10", "damping=5 %"}).bodies[0].flexible->damping,
             std::vector<double>(10, 0.05));
 }
@@ -341,7 +341,7 @@ TEST(Car, ResolvedTextLoadsToTheSameScene) {
 
 TEST(Car, EveryThingKnowsItsPlaceInTheFiles) {
   const Scene scene = depression();
-  EXPECT_THAT(body_named(scene, "chassis").where.text(), testing::EndsWith("car.yaml:27:3: bodies.chassis"));
+  EXPECT_THAT(body_named(scene, "chassis").where.text(), testing::EndsWith("car.yaml:31:3: bodies.chassis"));
   EXPECT_THAT(scene.motions[1].where.text(),
               testing::EndsWith("sine_depression.yaml:14:3: motions.front_right_steering"));
 }

@@ -108,45 +108,4 @@ MatrixX read_frd_shapes(const std::string& path, const std::vector<int>& node_id
   return all;
 }
 
-std::vector<Freedom> read_dof(const std::string& path) {
-  Lines lines(path);
-  std::vector<Freedom> freedoms;
-  while (lines.next()) {
-    const std::string& line = lines.line();
-    const std::size_t dot = line.find('.');
-    if (dot == std::string::npos) lines.reject("a line must be node.direction");
-    const Freedom freedom{lines.parse<int>(line.substr(0, dot)), lines.parse<int>(line.substr(dot + 1)) - 1};
-    if (freedom.axis < 0 || freedom.axis > 2) lines.reject("a direction must be 1, 2 or 3");
-    freedoms.push_back(freedom);
-  }
-  return freedoms;
-}
-
-SparseMatrix read_stored_matrix(const std::string& path, const std::vector<Freedom>& rows,
-                                const std::vector<Freedom>& freedoms) {
-  std::map<std::pair<int, int>, int> place;
-  for (const Freedom& f : freedoms) place.emplace(std::pair(f.node, f.axis), static_cast<int>(place.size()));
-  Lines lines(path);
-  const auto index = [&](const std::string& word) {
-    const int row = lines.parse<int>(word);
-    if (row < 1 || row > static_cast<int>(rows.size())) lines.reject("there is no such row");
-    const Freedom& freedom = rows[static_cast<std::size_t>(row - 1)];
-    const auto found = place.find({freedom.node, freedom.axis});
-    if (found == place.end()) lines.reject(fmt::format("freedom {} was not given", to_string(freedom)));
-    return found->second;
-  };
-  std::vector<Eigen::Triplet<double>> entries;
-  while (lines.next()) {
-    const std::vector<std::string> words = lines.words();
-    if (words.size() != 3) lines.reject("a line must be row, column, value");
-    const int i = index(words[0]), j = index(words[1]);
-    const double value = lines.parse<double>(words[2]);
-    entries.emplace_back(i, j, value);
-    if (i != j) entries.emplace_back(j, i, value);
-  }
-  SparseMatrix A(static_cast<Eigen::Index>(freedoms.size()), static_cast<Eigen::Index>(freedoms.size()));
-  A.setFromTriplets(entries.begin(), entries.end());
-  return A;
-}
-
 }  // namespace wishbone

@@ -17,12 +17,4 @@ VectorX read_dat_eigenvalues(const std::string& path);
 /// fixed columns, six digits each.
 MatrixX read_frd_shapes(const std::string& path, const std::vector<int>& node_ids);
 
-/// Rows of the matrices of an analysis from its .dof file, one "node.direction" a line.
-std::vector<Freedom> read_dof(const std::string& path);
-
-/// Matrix of a .sti or .mas file, the upper triangle as lines "row column value", with its rows and columns
-/// moved from the order `rows` to the order `freedoms`.
-SparseMatrix read_stored_matrix(const std::string& path, const std::vector<Freedom>& rows,
-                                const std::vector<Freedom>& freedoms);
-
 }  // namespace wishbone

@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "identification/calculix/calculix_files.h"
+#include "identification/formats/calculix_matrices.h"
 #include "temporary_folder.h"
 
 namespace wishbone {
@@ -71,19 +72,20 @@ std::string text_of(const std::string& path) {
 }
 
 /// Runs the deck under the name `job` and gives the path of its results without extension.
-std::string run_calculix(const TemporaryFolder& folder, const std::string& job, const std::string& deck) {
+std::string run_calculix(const std::filesystem::path& folder, const std::string& job,
+                         const std::string& deck) {
   std::ofstream(folder / (job + ".inp")) << deck;
-  const std::string log = folder / (job + ".log");
+  const std::string log = (folder / (job + ".log")).string();
   const std::string command =
-      fmt::format("cd '{}' && OMP_NUM_THREADS=1 ccx {} > '{}' 2>&1", folder / "", job, log);
+      fmt::format("cd '{}' && OMP_NUM_THREADS=1 ccx {} > '{}' 2>&1", folder.string(), job, log);
   if (std::system(command.c_str()) != 0 || text_of(log).find("*ERROR") != std::string::npos)
     throw InputError({"CalculiX", "the analysis failed", job, text_of(log)});
-  return folder / job;
+  return (folder / job).string();
 }
 
 Modes modes_by_calculix(const TemporaryFolder& folder, const std::string& job, const CalculixModel& model,
                         int mode_count) {
-  const std::string results = run_calculix(folder, job, modes_deck(model, mode_count));
+  const std::string results = run_calculix(folder / "", job, modes_deck(model, mode_count));
   Modes modes{read_dat_eigenvalues(results + ".dat"), read_frd_shapes(results + ".frd", model.mesh.node_ids)};
   if (modes.lambda.size() != modes.shapes.cols())
     throw InputError({results, "there must be an eigenvalue for every shape",
@@ -146,11 +148,16 @@ CalculixStructure analyse_with_calculix(const CalculixModel& model, int mode_cou
   data.support = model.support;
   data.validate();
 
-  const std::string matrices = run_calculix(folder, "matrices", matrices_deck(free));
-  const std::vector<Freedom> rows = read_dof(matrices + ".dof");
-  structure.M = read_stored_matrix(matrices + ".mas", rows, data.freedoms);
-  structure.K = read_stored_matrix(matrices + ".sti", rows, data.freedoms);
+  const std::string matrices = store_calculix_matrices(free, folder / "", "matrices");
+  CalculixMatrices stored = read_calculix_matrices(matrices, matrices + ".inp");
+  structure.M = std::move(stored.M);
+  structure.K = std::move(stored.K);
   return structure;
+}
+
+std::string store_calculix_matrices(const CalculixModel& model, const std::filesystem::path& folder,
+                                    const std::string& job) {
+  return run_calculix(folder, job, matrices_deck(model));
 }
 
 CalculixStructure calculix_supported_structure(const Support& support, int mode_count) {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <filesystem>
+#include <string>
+
 #include "identification/calculix/calculix_deck.h"
 #include "identification/methods/modes.h"
 #include "identification/modal_data.h"
@@ -23,6 +26,10 @@ CalculixModel calculix_frame();
 Support frame_springs(double k);
 /// Six joints that just hold it, on the same nodes.
 Support frame_joints();
+
+/// Has CalculiX store the matrices of a model as `job` in a folder; gives the path of the files without extension.
+std::string store_calculix_matrices(const CalculixModel& model, const std::filesystem::path& folder,
+                                    const std::string& job);
 
 /// Runs CalculiX three times in a folder of its own. Throws InputError saying what it said if it fails.
 CalculixStructure analyse_with_calculix(const CalculixModel& model, int mode_count);

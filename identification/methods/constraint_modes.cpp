@@ -1,0 +1,47 @@
+#include "identification/methods/constraint_modes.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+#include <set>
+
+#include "core/error.h"
+#include "identification/methods/expansion.h"
+
+namespace wishbone {
+namespace {
+
+[[noreturn]] void reject(std::string what, std::string value, std::string remedy) {
+  throw InputError({"constraint modes", std::move(what), std::move(value), std::move(remedy)});
+}
+
+void check_freedoms(const SparseMatrix& K, const std::vector<int>& freedoms) {
+  std::set<int> seen;
+  for (const int freedom : freedoms) {
+    if (freedom < 0 || freedom >= K.rows())
+      reject(fmt::format("the structure has {} freedoms", K.rows()), fmt::format("freedom {}", freedom + 1),
+             "name freedoms of the structure");
+    if (!seen.insert(freedom).second)
+      reject("an interface freedom is named twice", fmt::format("freedom {}", freedom + 1), "name each once");
+  }
+}
+
+void check_hold(const MatrixX& rigid, const std::vector<int>& freedoms) {
+  Eigen::ColPivHouseholderQR<MatrixX> qr;
+  qr.setThreshold(1e-6);
+  qr.compute(rigid(freedoms, Eigen::all));
+  if (qr.rank() < rigid.cols())
+    reject("the interface nodes must hold the body, for all its other nodes follow statically",
+           fmt::format("{} of {} rigid motions are held", qr.rank(), rigid.cols()),
+           "name at least three nodes that do not lie on one line, or take attachment modes");
+}
+
+}  // namespace
+
+MatrixX constraint_modes(const SparseMatrix& K, const MatrixX& rigid, const std::vector<int>& freedoms) {
+  check_freedoms(K, freedoms);
+  check_hold(rigid, freedoms);
+  return static_transformation(K, freedoms);
+}
+
+}  // namespace wishbone

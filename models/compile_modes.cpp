@@ -1,0 +1,87 @@
+#include "models/compile_modes.h"
+
+#include <fmt/format.h>
+
+#include "core/yaml.h"
+#include "identification/flexible_modes.h"
+#include "identification/mode_set_of.h"
+#include "models/identification_sections.h"
+#include "models/interface_nodes.h"
+
+namespace wishbone {
+namespace {
+
+/// The ratios that the scene gives; those of the modes where it gives none.
+void set_damping(const Scene::Body& body, ModeSet& modes) {
+  if (const auto& ratio = body.flexible->common_damping) modes.damping_ratio.setConstant(*ratio);
+  const std::vector<double>& ratios = body.flexible->damping;
+  if (ratios.empty()) return;
+  const auto count = static_cast<Eigen::Index>(ratios.size());
+  if (count != modes.mode_count())
+    throw InputError({body.where.text() + ".flexible.damping",
+                      fmt::format("there are {} damping ratios for {} {}modes", count, modes.mode_count(),
+                                  body.flexible->identification ? "identified " : ""),
+                      "", "give one ratio for all modes, or one per mode"});
+  modes.damping_ratio = Eigen::Map<const VectorX>(ratios.data(), count);
+}
+
+/// The nodes that static shapes are taken at; `interfaces`: those of the body.
+const std::vector<int>& nodes_of(const Scene::StaticNodes& nodes, const std::vector<int>& interfaces) {
+  return nodes.interfaces ? interfaces : nodes.ids;
+}
+
+FlexibleModes model_modes_of(const Scene::Flexible& flexible, const std::vector<int>& interfaces) {
+  const auto reduce = [&](const AnalyticalModel& model) {
+    return flexible_modes(model, flexible.modes, nodes_of(flexible.attachment, interfaces),
+                          nodes_of(flexible.constraint, interfaces));
+  };
+  if (flexible.model) return reduce(*flexible.model);
+  const Scene::Block& b = *flexible.block;
+  return reduce(identification_sections::block_model(b.size, b.elements, b.young, b.poisson, b.density));
+}
+
+std::string static_text(const Scene::StaticNodes& nodes, const std::vector<int>& interfaces,
+                        const char* kind) {
+  if (nodes.empty()) return "";
+  const std::size_t count = nodes_of(nodes, interfaces).size();
+  return fmt::format(" and {} modes of {} {}{}", kind, count, nodes.interfaces ? "interface" : "node",
+                     count == 1 ? "" : "s");
+}
+
+std::string choice_text(const Scene::Flexible& flexible, const std::vector<int>& interfaces,
+                        const FlexibleModes& modes) {
+  std::string text = flexible.automatic ? "automatic: " : "";
+  text += describe(flexible.modes) + static_text(flexible.attachment, interfaces, "attachment") +
+          static_text(flexible.constraint, interfaces, "constraint");
+  if (modes.left_out > 0)
+    text +=
+        fmt::format("; {} static shape{} no more", modes.left_out, modes.left_out == 1 ? " adds" : "s add");
+  return text;
+}
+
+}  // namespace
+
+ModeSet ModeCompiler::modes_of(int index) {
+  const Scene::Body& body = scene_.bodies[static_cast<std::size_t>(index)];
+  const Scene::Flexible& flexible = *body.flexible;
+  const std::vector<int> interfaces = interface_nodes(scene_, index);
+  FlexibleModes modes;
+  std::string choice;
+  within(body.where, [&] {
+    if (flexible.identification) {
+      identified.push_back({body.name, identify(*flexible.identification)});
+      modes.set = mode_set_of(identified.back().identification.modes);
+      modes.kinds.assign(static_cast<std::size_t>(modes.set.mode_count()), ModeKind::normal);
+      choice = "all identified modes";
+    } else {
+      modes = model_modes_of(flexible, interfaces);
+      choice = choice_text(flexible, interfaces, modes);
+    }
+    return 0;
+  });
+  set_damping(body, modes.set);
+  tables.push_back({body.name, std::move(choice), mode_table(modes.set, modes.kinds, interfaces)});
+  return std::move(modes.set);
+}
+
+}  // namespace wishbone

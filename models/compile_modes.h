@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bodies/mode_set.h"
+#include "identification/identify.h"
+#include "identification/mode_table.h"
+#include "models/scene.h"
+
+namespace wishbone {
+
+/// What was identified for a flexible body.
+struct IdentifiedBody {
+  std::string body;
+  Identification identification;
+};
+
+/// What the deformation of a flexible body is made of.
+struct BodyModes {
+  std::string body;
+  std::string choice;  ///< in words
+  std::vector<ModeRow> modes;
+};
+
+/// Modes of the flexible bodies of a scene.
+class ModeCompiler {
+ public:
+  explicit ModeCompiler(const Scene& scene) : scene_(scene) {}
+
+  /// Modes of a body (index into `Scene::bodies`) with their damping.
+  /// @throws InputError naming the place in the scene file
+  ModeSet modes_of(int body);
+
+  std::vector<IdentifiedBody> identified;  ///< so far
+  std::vector<BodyModes> tables;           ///< so far
+
+ private:
+  const Scene& scene_;
+};
+
+}  // namespace wishbone

@@ -1,0 +1,28 @@
+#include "models/interface_nodes.h"
+
+#include <set>
+
+namespace wishbone {
+
+std::vector<int> interface_nodes(const Scene& scene, int body) {
+  std::set<int> nodes;
+  const auto note = [&](const Scene::Point& point) {
+    if (point.body == body && point.node != 0) nodes.insert(point.node);
+  };
+  for (const Scene::Joint& joint : scene.joints) {
+    note(joint.first);
+    note(joint.second);
+  }
+  for (const Scene::Closure& closure : scene.closures) {
+    note(closure.from);
+    note(closure.to);
+  }
+  for (const Scene::Spring& spring : scene.springs) {
+    note(spring.from);
+    note(spring.to);
+  }
+  for (const Scene::Load& load : scene.loads) note(load.point);
+  return {nodes.begin(), nodes.end()};
+}
+
+}  // namespace wishbone

@@ -1,0 +1,290 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <numbers>
+
+#include "identification/body_nodes.h"
+#include "identification/elements/hexahedral_mesh.h"
+#include "models/identification_loader.h"
+#include "models/identification_sections.h"
+#include "models/scene_sections.h"
+
+namespace wishbone::scene_sections {
+namespace {
+
+double read_poisson(const Value& value) {
+  const double poisson = value.number(kRatio);
+  if (!(poisson > -1 && poisson < 0.5))
+    value.refuse("Poisson's ratio must be between -1 and 0.5", "metals have 0.3");
+  return poisson;
+}
+
+/// Beyond it the modes of a block would take minutes.
+constexpr int kMostNodes = 40000;
+
+void take_block(const Scene::Block& block, Scene::Flexible& flexible) {
+  const HexahedralMesh mesh = make_block(block.size, block.elements);
+  flexible.block = block;
+  flexible.node_ids = mesh.node_ids;
+  flexible.node_position = mesh.nodes;
+}
+
+void take_model(const Value& value, Scene::Flexible& flexible, Scene& scene) {
+  identification_sections::Files files;
+  auto model = std::make_shared<const AnalyticalModel>(identification_sections::read_model(value, files));
+  if (model->node_mass.size() == 0)
+    value.refuse("a flexible body needs lumped masses, and this mass matrix is not lumped",
+                 "add 'lumping: row_sum' or 'lumping: diagonal' to the model");
+  flexible.node_ids = model->node_ids;
+  const Vector3 centre = model->node_position * model->node_mass / model->node_mass.sum();
+  flexible.node_position = model->node_position.colwise() - centre;
+  flexible.model = std::move(model);
+  scene.data_files.insert(scene.data_files.end(), files.read().begin(), files.read().end());
+}
+
+bool has_any(const Value& value, std::initializer_list<std::string_view> keys) {
+  return value.is_mapping() &&
+         std::any_of(keys.begin(), keys.end(), [&](std::string_view key) { return value.node()->find(key); });
+}
+
+double read_limit(const Value& frequency) {
+  return 2 * std::numbers::pi * frequency.positive(kFrequency);
+}
+
+ListedModes read_list(const Value& value, int elastic) {
+  ListedModes listed;
+  for (const Value& item : value.list()) listed.numbers.push_back(item.integer(1, elastic));
+  std::sort(listed.numbers.begin(), listed.numbers.end());
+  if (listed.numbers.empty())
+    value.refuse("there are no modes in the list", "write 'modes: none' for a rigid body");
+  if (std::adjacent_find(listed.numbers.begin(), listed.numbers.end()) != listed.numbers.end())
+    value.refuse("a mode is listed twice", "list each mode once");
+  return listed;
+}
+
+/// {lowest: N}, {below: F} or {list: [N, ...]}.
+ModeChoice read_choice(const Value& value, int elastic) {
+  const Mapping keys(value, {"lowest", "below", "list"});
+  if (value.node()->entries.size() != 1)
+    keys.refuse("one of 'lowest', 'below' and 'list' chooses the modes", "remove the others");
+  if (const auto lowest = keys.optional("lowest")) return LowestModes{lowest->integer(1, elastic)};
+  if (const auto below = keys.optional("below")) return ModesBelow{read_limit(*below)};
+  return read_list(keys.required("list"), elastic);
+}
+
+/// `interfaces`, or a list of nodes of the body.
+Scene::StaticNodes read_static_nodes(const Value& value, const Scene::Flexible& flexible) {
+  if (value.is_word("interfaces")) return {true, {}};
+  if (!value.is_list())
+    value.refuse("the nodes are neither 'interfaces' nor a list", "write 'interfaces', or [1, 2, 3]");
+  Scene::StaticNodes nodes;
+  for (const Value& item : value.list()) {
+    const int id = item.integer(std::numeric_limits<int>::min(), std::numeric_limits<int>::max());
+    const std::vector<int>& ids = flexible.node_ids;
+    if (std::find(ids.begin(), ids.end(), id) == ids.end())
+      item.refuse("the body has no such node", identification_sections::nodes_text(ids));
+    if (std::find(nodes.ids.begin(), nodes.ids.end(), id) != nodes.ids.end())
+      item.refuse("a node is listed twice", "list each node once");
+    nodes.ids.push_back(id);
+  }
+  if (nodes.ids.empty())
+    value.refuse("there are no nodes in the list", "name at least one, or write 'interfaces'");
+  return nodes;
+}
+
+/// All normal modes below a limit, and the attachment modes of every interface.
+void take_automatic(const Mapping& keys, Scene::Flexible& flexible) {
+  flexible.automatic = true;
+  flexible.modes = ModesBelow{read_limit(keys.required("below"))};
+  flexible.attachment = {true, {}};
+  if (const auto attachment = keys.optional("attachment"))
+    attachment->refuse("'modes: automatic' takes the attachment modes of every interface already",
+                       "remove the key");
+}
+
+/// Normal modes of a block or model, and static shapes beside them.
+void take_model_modes(const Mapping& keys, const Value& modes, Scene::Flexible& flexible) {
+  const int elastic = 3 * static_cast<int>(flexible.node_ids.size()) - 6;
+  const bool is_number = looks_like_number(modes.node()->text);
+  if (modes.is_mapping())
+    flexible.modes = read_choice(modes, elastic);
+  else if (modes.is_word("all"))
+    flexible.modes = AllModes{};
+  else if (modes.is_word("automatic"))
+    take_automatic(keys, flexible);
+  else if (modes.is_word("none"))
+    flexible.is_rigid = true;
+  else if (is_number)
+    flexible.modes = LowestModes{modes.integer(1, elastic)};
+  else
+    modes.refuse_choice({"all", "automatic", "none"}, "the choices of modes");
+
+  if (const auto below = keys.optional("below"); below && !flexible.automatic)
+    below->refuse("'below' belongs to 'modes: automatic'",
+                  "write 'modes: {below: ...}' for normal modes alone");
+  for (const auto& [key, nodes] :
+       {std::pair("attachment", &flexible.attachment), {"constraint", &flexible.constraint}}) {
+    const auto value = keys.optional(key);
+    if (!value || !nodes->empty()) continue;
+    *nodes = read_static_nodes(*value, flexible);
+    if (flexible.is_rigid) value->refuse("a body without modes is rigid", "remove the key, or choose modes");
+  }
+}
+
+/// How many modes there will be, where it is known before they are computed.
+std::optional<int> known_count(const Scene::Flexible& flexible) {
+  if (!flexible.attachment.empty() || !flexible.constraint.empty()) return std::nullopt;
+  if (flexible.is_rigid) return 0;
+  if (const auto* lowest = std::get_if<LowestModes>(&flexible.modes)) return lowest->count;
+  if (const auto* listed = std::get_if<ListedModes>(&flexible.modes))
+    return static_cast<int>(listed->numbers.size());
+  if (std::holds_alternative<AllModes>(flexible.modes))
+    return 3 * static_cast<int>(flexible.node_ids.size()) - 6;
+  return std::nullopt;
+}
+
+/// One ratio for all modes, or a list of one per mode, the length of which is checked where it is known already.
+void take_damping(const Value& value, std::optional<int> count, Scene::Flexible& flexible) {
+  if (!value.is_list()) {
+    const double ratio = value.non_negative(kRatio);
+    if (count)
+      flexible.damping.assign(static_cast<std::size_t>(*count), ratio);
+    else
+      flexible.common_damping = ratio;
+    return;
+  }
+  flexible.damping.clear();
+  for (const Value& item : value.list()) flexible.damping.push_back(item.non_negative(kRatio));
+  if (count && flexible.damping.size() != static_cast<std::size_t>(*count) && !flexible.is_rigid)
+    value.refuse(fmt::format("there are {} damping ratios for {} modes", flexible.damping.size(), *count),
+                 "give one ratio for all modes, or one per mode");
+  if (flexible.damping.empty())
+    value.refuse("there are no damping ratios in the list", "remove the key to keep those of the modes");
+}
+
+/// The modes are identified, and the nodes with them; a block or model is that of the identification unless it has its
+/// own.
+void take_identification(const Value& section, Scene::Flexible& flexible, Scene& scene) {
+  std::optional<AnalyticalModel> model;
+  if (flexible.block) {
+    const Scene::Block& b = *flexible.block;
+    model = identification_sections::block_model(b.size, b.elements, b.young, b.poisson, b.density);
+  }
+  const AnalyticalModel* own_model = flexible.model ? flexible.model.get() : model ? &*model : nullptr;
+  LoadedIdentification loaded = read_identification(section, own_model);
+  if (loaded.task.goal == Goal::kHeld)
+    section.refuse("a flexible body needs free-free modes", "write 'find: free', 'changed' or 'corrected'");
+  const BodyNodes nodes = within(section.where(), [&] { return body_nodes(loaded.task); });
+  flexible.node_ids = nodes.ids;
+  flexible.node_position = nodes.position;
+  scene.data_files.insert(scene.data_files.end(), loaded.files.begin(), loaded.files.end());
+  flexible.identification = std::make_shared<const IdentificationTask>(std::move(loaded.task));
+}
+
+void refuse_static_shapes(const Mapping& keys) {
+  for (const char* key : {"attachment", "constraint"})
+    if (const auto value = keys.optional(key))
+      value->refuse("static shapes need the stiffness of a model, and identified modes do not tell it",
+                    "remove the key, or choose modes of a block or model");
+  if (const auto below = keys.optional("below"))
+    below->refuse("'below' belongs to 'modes: automatic'",
+                  "choose among measured modes by 'modes: {measured: ...}'");
+}
+
+void take_nodes(const Mapping& keys, bool needed, Scene::Flexible& flexible, Scene& scene) {
+  const auto model = keys.optional("model");
+  if (model && (keys.has("block") || keys.has("material")))
+    model->refuse("the nodes come either from a block or from a model", "remove one of the two");
+  if (model)
+    take_model(*model, flexible, scene);
+  else if (needed || keys.has("block"))
+    take_block(read_block(keys.required("block"), keys.required("material")), flexible);
+}
+
+/// `mean`, or {fixed: [o, i, j]}.
+std::optional<Scene::FixedAxes> read_axes(const Value& value, const std::vector<int>& node_ids) {
+  if (value.is_word("mean")) return std::nullopt;
+  const Mapping keys(value, {"fixed"});
+  const Value fixed = keys.required("fixed");
+  const std::vector<Value> items = fixed.list();
+  if (items.size() != 3)
+    fixed.refuse("axes are fixed on three nodes",
+                 "name the node of all three directions, one along a line, one off it");
+  Scene::FixedAxes nodes{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    nodes[k] = items[k].integer(1, std::numeric_limits<int>::max());
+    if (std::find(node_ids.begin(), node_ids.end(), nodes[k]) == node_ids.end())
+      items[k].refuse("the body has no such node", "name one of its nodes");
+  }
+  return nodes;
+}
+
+}  // namespace
+
+Scene::Flexible read_flexible(const Value& value, Scene& scene) {
+  const Mapping keys(value, {"block", "material", "model", "modes", "below", "attachment", "constraint", "damping",
+                             "axes", "inertia"});
+  Scene::Flexible flexible;
+  const Value modes = keys.required("modes");
+  const bool identified = modes.is_mapping() && !has_any(modes, {"lowest", "below", "list"});
+  take_nodes(keys, !identified, flexible, scene);
+  if (identified) {
+    refuse_static_shapes(keys);
+    take_identification(modes, flexible, scene);
+  } else {
+    take_model_modes(keys, modes, flexible);
+    if (const auto count = known_count(flexible))
+      flexible.damping.assign(static_cast<std::size_t>(*count), 0.0);
+  }
+  if (const auto damping = keys.optional("damping"))
+    take_damping(*damping, identified ? std::nullopt : known_count(flexible), flexible);
+  if (const auto axes = keys.optional("axes")) flexible.fixed_axes = read_axes(*axes, flexible.node_ids);
+  if (const auto inertia = keys.optional("inertia"))
+    flexible.source_terms =
+        inertia->choice<bool>({{"consistent", false}, {"source", true}}, "the inertial couplings of a body");
+  return flexible;
+}
+
+VectorX node_masses(const Scene::Flexible& flexible) {
+  if (flexible.model) return flexible.model->node_mass;
+  const Scene::Block& block = *flexible.block;
+  return lumped_mass(make_block(block.size, block.elements), block.density);
+}
+
+IsotropicMaterial read_material(const Value& value) {
+  const Mapping keys(value, {"young", "poisson", "density"});
+  IsotropicMaterial material;
+  material.youngs_modulus = keys.required("young").positive(kPressure);
+  material.poissons_ratio = read_poisson(keys.required("poisson"));
+  material.density = keys.required("density").positive(kDensity);
+  return material;
+}
+
+Scene::Block read_block(const Value& value, const Value& material_value) {
+  Scene::Block block;
+  const Mapping keys(value, {"size", "elements"});
+  const Value size = keys.required("size");
+  block.size = size.vector3(kLength);
+  if (!(block.size.minCoeff() > 0))
+    size.refuse("the edges of the block must be positive", "give three lengths above zero");
+  const Value elements = keys.required("elements");
+  const std::vector<Value> counts = elements.list();
+  if (counts.size() != 3) elements.refuse("three numbers of elements are wanted", "write [nx, ny, nz]");
+  constexpr int kMostElements = 100;
+  for (int i = 0; i < 3; ++i)
+    block.elements[i] = counts[static_cast<std::size_t>(i)].integer(1, kMostElements);
+  if (const int nodes = (block.elements + Eigen::Vector3i::Ones()).prod(); nodes > kMostNodes)
+    elements.refuse(fmt::format("the block has {} nodes, more than the {} whose modes can be computed", nodes,
+                                kMostNodes),
+                    "take fewer elements");
+
+  const IsotropicMaterial material = read_material(material_value);
+  block.young = material.youngs_modulus;
+  block.poisson = material.poissons_ratio;
+  block.density = material.density;
+  return block;
+}
+
+}  // namespace wishbone::scene_sections
