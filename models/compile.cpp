@@ -37,6 +37,10 @@ void set_damping(const Scene::Body& body, ModeSet& modes) {
   modes.damping_ratio = Eigen::Map<const VectorX>(ratios.data(), count);
 }
 
+InterfaceFrame interface_frame(const Scene::Frame& frame) {
+  return {frame.name, frame.nodes, frame.weights};
+}
+
 /// One scene on its way into a SystemBuilder.
 class Compiler {
  public:
@@ -56,7 +60,7 @@ class Compiler {
     CompiledScene compiled;
     compiled.identified = std::move(identified_);
     std::tie(compiled.system, compiled.initial) = std::move(builder_).build();
-    compiled.observer = observer();
+    compiled.observer = observer(compiled.system);
     compiled.transient = transient();
     return compiled;
   }
@@ -70,6 +74,8 @@ class Compiler {
                           ? builder_.add_flexible_body(body.name, modes_of(body), X_WB)
                           : builder_.add_body(body.name, body.mass, body.inertia, X_WB);
     builder_.set_velocity(index, body.v_WBo, body.w_WB_B);
+    if (body.form != Scene::BodyForm::kModal) return;
+    for (const Scene::Frame& frame : body.flexible->frames) builder_.add_frame(index, interface_frame(frame));
   }
 
   ModeSet modes_of(const Scene::Body& body) {
@@ -112,11 +118,17 @@ class Compiler {
                             model.lag));
   }
 
-  /// On a flexible body, the node; on a rigid one, whose nodes are but points of it, the place.
-  BodyPoint body_point(const Scene::Point& point) const {
+  /// On a flexible body, the node or what the frame carries; on a rigid one, whose nodes are but points of it, the place.
+  BodyPoint body_point(const Scene::Point& point, const System& system) const {
     const Scene::Body& body = scene_.bodies[point.body];
-    return {builder_.built_index(point.body), body.X_DB.R.transpose() * (point.p_DP - body.X_DB.p),
-            attachment_of(scene_, point).node_id};
+    const Attachment on = attachment_of(scene_, point);
+    BodyPoint out{builder_.built_index(point.body), body.X_DB.R.transpose() * (point.p_DP - body.X_DB.p),
+                  on.node_id};
+    if (on.frame >= 0) {
+      const ModalBody& modal = system.flexible[system.bodies[out.body].flexible].modal;
+      out.frame = frame_shapes(interface_frame(body.flexible->frames[on.frame]), modal.modes());
+    }
+    return out;
   }
 
   std::string units_of(const Scene::Signal& signal) const {
@@ -126,12 +138,12 @@ class Compiler {
     return std::string(is_angle ? "rad" : "m") + (signal.is_speed ? "/s" : "");
   }
 
-  ObserverOptions observer() const {
+  ObserverOptions observer(const System& system) const {
     ObserverOptions options;
     for (const Scene::NodeOutput& output : scene_.output.nodes)
       options.deflections.push_back({builder_.built_index(output.body), output.nodes});
     for (const Scene::PointOutput& output : scene_.output.points)
-      options.points.push_back({output.name, body_point(output.point)});
+      options.points.push_back({output.name, body_point(output.point, system)});
     for (const Scene::Signal& signal : scene_.signals)
       options.signals.push_back({signal.name, units_of(signal)});
     if (!scene_.vehicle) return options;

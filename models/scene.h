@@ -27,6 +27,7 @@ struct Scene {
     int body = kGround;              ///< index into `bodies`, or kGround
     int node = 0;                    ///< id of a node of the body; 0: none was named
     Vector3 p_DP = Vector3::Zero();  ///< position in D [m]; that of the node when one was named
+    int frame = -1;  ///< index into the frames of the body that carries it; -1: none was named
   };
 
   /// A rectangular block of 8-node hexahedra, centred at the body origin, edges along the body axes.
@@ -38,6 +39,15 @@ struct Scene {
     double density = 0;                 ///< [kg/m3]
   };
 
+  /// A frame over several nodes of a body, which follows them in the mean.
+  struct Frame {
+    std::string name;
+    std::vector<int> nodes;
+    std::vector<double> weights;  ///< of each node; empty: all one
+    Vector3 centre_B =
+        Vector3::Zero();  ///< weighted centre of the nodes, body axes, from the mass centre [m]
+  };
+
   /// Nodes of a body and where its elastic modes come from: the block, or an identification.
   struct Flexible {
     std::vector<int> node_ids;
@@ -47,6 +57,7 @@ struct Scene {
     int modes = 0;                                             ///< lowest elastic modes kept of the block's
     std::vector<double> damping;  ///< damping ratio of each kept mode; empty: as identified, or one for all
     std::optional<double> identified_damping;  ///< one damping ratio for all identified modes
+    std::vector<Frame> frames;
   };
 
   enum class BodyForm { kRigid, kModal };

@@ -85,9 +85,8 @@ void read_output(const Value& section, Scene& scene) {
   }
   if (const auto points = keys.optional("points"))
     for (const auto& [name, value] : points->named()) {
-      const Mapping point(value, {"body", "at", "node"});
-      output.points.push_back({name, read_point(scene, read_body(scene, point.required("body")),
-                                                point.optional("at"), point.optional("node"), value)});
+      const Mapping point(value, {"body", "at", "node", "frame"});
+      output.points.push_back({name, read_point(scene, point, value)});
     }
 }
 

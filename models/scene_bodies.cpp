@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 
+#include "bodies/interface_frame.h"
 #include "identification/body_nodes.h"
 #include "identification/elements/hexahedral_mesh.h"
 #include "models/identification_loader.h"
@@ -80,8 +81,43 @@ void take_identified_damping(const Value& value, Scene::Flexible& flexible) {
     value.refuse("there are no damping ratios in the list", "remove the key to keep those of the modes");
 }
 
-Scene::Flexible read_flexible(const Value& value, Scene& scene) {
-  const Mapping keys(value, {"block", "material", "modes", "damping"});
+/// {nodes: [...], weights: [...]}.
+Scene::Frame read_frame(const std::string& name, const Value& value, const Scene::Flexible& flexible) {
+  Scene::Frame frame;
+  frame.name = name;
+  const auto place = [&](int id) {
+    return std::find(flexible.node_ids.begin(), flexible.node_ids.end(), id);
+  };
+  const Mapping keys(value, {"nodes", "weights"});
+  const Value nodes = keys.required("nodes");
+  for (const Value& item : nodes.list()) {
+    const int node = item.integer(std::numeric_limits<int>::min(), std::numeric_limits<int>::max());
+    if (place(node) == flexible.node_ids.end())
+      item.refuse("the body has no such node", identification_sections::nodes_text(flexible.node_ids));
+    if (std::find(frame.nodes.begin(), frame.nodes.end(), node) != frame.nodes.end())
+      item.refuse("the frame has this node already", "name each node once; weights let some count more");
+    frame.nodes.push_back(node);
+  }
+  if (const auto weights = keys.optional("weights")) {
+    for (const Value& item : weights->list()) frame.weights.push_back(item.positive(kRatio));
+    if (frame.weights.size() != frame.nodes.size())
+      weights->refuse(
+          fmt::format("there are {} weights for {} nodes", frame.weights.size(), frame.nodes.size()),
+          "give one weight per node, or leave them out for equal ones");
+  }
+
+  Matrix3X position(3, static_cast<Eigen::Index>(frame.nodes.size()));
+  for (std::size_t i = 0; i < frame.nodes.size(); ++i)
+    position.col(static_cast<Eigen::Index>(i)) =
+        flexible.node_position.col(place(frame.nodes[i]) - flexible.node_ids.begin());
+  frame.centre_B = within(nodes.where(), [&] {
+    return frame_geometry({name, frame.nodes, frame.weights}, position).origin;
+  });
+  return frame;
+}
+
+/// Where the modes and the nodes come from.
+Scene::Flexible read_modes(const Mapping& keys, Scene& scene) {
   Scene::Flexible flexible;
   const Value modes = keys.required("modes");
   if (!modes.is_mapping() || keys.has("block"))
@@ -93,6 +129,15 @@ Scene::Flexible read_flexible(const Value& value, Scene& scene) {
   }
   take_identification(modes, flexible, scene);
   if (damping) take_identified_damping(*damping, flexible);
+  return flexible;
+}
+
+Scene::Flexible read_flexible(const Value& value, Scene& scene) {
+  const Mapping keys(value, {"block", "material", "modes", "damping", "frames"});
+  Scene::Flexible flexible = read_modes(keys, scene);
+  if (const auto frames = keys.optional("frames"))
+    for (const auto& [name, frame] : frames->named())
+      flexible.frames.push_back(read_frame(name, frame, flexible));
   return flexible;
 }
 
@@ -202,6 +247,18 @@ int read_node(const Value& node, const Scene::Body& body) {
                 identification_sections::nodes_text(ids));
   }
   return number;
+}
+
+Vector3 frame_place(const Scene::Body& body, int frame) {
+  return body.X_DB * body.flexible->frames[static_cast<std::size_t>(frame)].centre_B;
+}
+
+int read_frame_name(const Value& frame, const Scene::Body& body) {
+  if (!body.flexible || body.flexible->frames.empty()) {
+    frame.refuse(fmt::format("the body '{}' has no frames", body.name),
+                 "describe it under 'frames' of its 'flexible'");
+  }
+  return index_of(body.flexible->frames, frame, fmt::format("the frames of '{}'", body.name));
 }
 
 void read_bodies(const Value& section, Scene& scene) {
