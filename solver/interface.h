@@ -95,11 +95,18 @@ Interface<T> parent_interface(const System& system, const TreeBody& body, const 
   return {system, body.parent, body.parent_interface, ev};
 }
 
+/// R_WF of a joint on a frame.
+template <class T>
+[[gnu::noinline]] Matrix3T<T> axes_on_frame(const System& system, const TreeBody& body,
+                                            const Evaluation<T>& ev) {
+  return parent_interface(system, body, ev).R_WI() * body.X_PF.R;
+}
+
 /// R_WF of the inboard joint frame of a body.
 template <class T>
 Matrix3T<T> inboard_axes(const System& system, const TreeBody& body, const Evaluation<T>& ev) {
   if (body.parent < 0) return body.X_PF.R.template cast<T>();
-  if (body.on_frame) return parent_interface(system, body, ev).R_WI() * body.X_PF.R;
+  if (body.on_frame) return axes_on_frame(system, body, ev);
   const Matrix3T<T>& R_WP = ev.bodies[body.parent].X_WB.R;
   return body.turned_PF ? Matrix3T<T>(R_WP * body.X_PF.R) : R_WP;
 }

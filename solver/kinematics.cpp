@@ -17,20 +17,21 @@ const BodyMotionT<T>& parent_motion(const TreeBody& body, const Evaluation<T>& e
   return body.parent < 0 ? kInertialFrame<T> : ev.bodies[body.parent];
 }
 
-/// p_PF, world axes.
+// What interfaces of flexible parents take is kept out of line: joints on rigid bodies are the rule.
+
+/// p_PF of a joint on an interface, world axes.
 template <class T>
-Vector3T<T> inboard_point(const System& system, const TreeBody& body, const Matrix3T<T>& R_WP,
-                          const Evaluation<T>& ev) {
-  if (body.parent_interface < 0) return R_WP * body.X_PF.p;
+[[gnu::noinline]] Vector3T<T> point_on_interface(const System& system, const TreeBody& body,
+                                                 const Evaluation<T>& ev) {
   const Interface<T> interface = parent_interface(system, body, ev);
   if (!body.on_frame) return interface.p_PI();
   return interface.p_PI() + interface.R_WI() * body.X_PF.p;
 }
 
-/// Velocity against the parent of the interface under the joint, world axes; zero where there is none.
+/// Velocity against the parent of the interface under the joint, world axes.
 template <class T>
-Vector3T<T> interface_velocity(const System& system, const TreeBody& body, const Evaluation<T>& ev) {
-  if (body.parent_interface < 0) return Vector3T<T>::Zero();
+[[gnu::noinline]] Vector3T<T> velocity_of_interface(const System& system, const TreeBody& body,
+                                                    const Evaluation<T>& ev) {
   return parent_interface(system, body, ev).v_PI();
 }
 
@@ -69,7 +70,10 @@ void update_position(const System& system, const TreeBody& body, const Joint& jo
   // p_PB = p_PF + p_FM + p_MB
   s.p_PB = s.p_MB;
   if constexpr (Joint::kTranslates) s.p_PB += R_WF * across.X_FM.p;
-  s.p_PB += inboard_point(system, body, parent.X_WB.R, ev);
+  if (body.parent_interface < 0)
+    s.p_PB += parent.X_WB.R * body.X_PF.p;
+  else
+    s.p_PB += point_on_interface(system, body, ev);
   s.X_WB.p = parent.X_WB.p + s.p_PB;
 
   set_hinge_columns<Joint, T>(R_WF, across.H, s.p_MB, ev.H.data() + body.v_start);
@@ -78,9 +82,11 @@ void update_position(const System& system, const TreeBody& body, const Joint& jo
 /// What the turning of the interface frame under the joint adds to V and c, which are those of a frame that keeps the axes
 /// of the parent: the joint's motion (w_rel, v_rel of Bo) is seen from the frame.
 template <class T>
-[[gnu::noinline]] void add_turning_of_frame(const Interface<T>& frame, const Vector3T<T>& w_P,
+[[gnu::noinline]] void add_turning_of_frame(const System& system, const TreeBody& body,
+                                            const Evaluation<T>& ev, const Vector3T<T>& w_P,
                                             const Vector3T<T>& w_rel, const Vector3T<T>& v_rel,
                                             BodyMotionT<T>& s) {
+  const Interface<T> frame = parent_interface(system, body, ev);
   const Vector3T<T> w_PI = frame.w_PI(), p_IB = s.p_PB - frame.p_PI();
   const Vector3T<T> alpha = frame.alpha_bias(w_P);
   s.V += spatial(w_PI, w_PI.cross(p_IB));
@@ -93,8 +99,9 @@ void update_velocity(const System& system, const TreeBody& body, const Joint& jo
   const BodyMotionT<T>& parent = parent_motion(body, ev);
 
   // motion of Bo as seen from the parent: H v, the drift of prescribed motions and turning axes, and the interface's velocity
-  const Vector3T<T> v_PI = interface_velocity(system, body, ev);
-  Vector3T<T> w_rel = Vector3T<T>::Zero(), v_rel = v_PI;
+  Vector3T<T> w_rel = Vector3T<T>::Zero(), v_PI = Vector3T<T>::Zero();
+  if (body.parent_interface >= 0) v_PI = velocity_of_interface(system, body, ev);
+  Vector3T<T> v_rel = v_PI;
   for (int i = 0; i < Joint::kNv; ++i) {
     const Vector6T<T>& h = ev.H[body.v_start + i];
     w_rel += angular(h) * v[i];
@@ -124,7 +131,7 @@ void update_velocity(const System& system, const TreeBody& body, const Joint& jo
     s.c.template head<3>() += alpha_drift;
     s.c.template tail<3>() += a_drift;
   }
-  if (body.on_frame) add_turning_of_frame<T>(parent_interface(system, body, ev), w_P, w_rel, v_rel - v_PI, s);
+  if (body.on_frame) add_turning_of_frame<T>(system, body, ev, w_P, w_rel, v_rel - v_PI, s);
 }
 
 // Of doubles with everything inlined (flatten): this runs in every evaluation, and left to itself the compiler makes half of

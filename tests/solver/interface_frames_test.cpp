@@ -275,6 +275,7 @@ Matrix3X finite_element_deflections(const HexahedralMesh& mesh) {
     const Matrix3 r = skew(mesh.nodes.col(12 + i) - tip);
     I_tip -= r * r;
   }
+  A.bottomRows(6) *= A.maxCoeff();  // for the sake of pivoting
   A.topRightCorner(n, 6) = A.bottomLeftCorner(6, n).transpose();
   VectorX b = VectorX::Zero(n + 6);
   const Vector3 turn = I_tip.inverse() * kMoment;
