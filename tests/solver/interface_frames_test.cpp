@@ -8,6 +8,7 @@
 #include "solver/closures.h"
 #include "solver/forward_dynamics.h"
 #include "solver/inverse_dynamics.h"
+#include "solver/kinematics.h"
 #include "solver/mechanisms.h"
 
 namespace wishbone {
