@@ -62,10 +62,12 @@ class Interface {
 
   /// Theta z'' as the acceleration of a point Q that moves with I.
   Vector6T<T> acceleration(const VectorXT<T>& z_dd, const Vector3T<T>& p_PQ) const {
-    const Vector3T<T> a = v_Theta(z_dd);
-    if (!turns_) return spatial(Vector3T<T>::Zero().eval(), a);
-    const Vector3T<T> alpha = w_Theta(z_dd);
-    return spatial(alpha, a + alpha.cross(p_PQ - p_PI()));
+    Vector3T<T> alpha = Vector3T<T>::Zero(), a = v_Theta(z_dd);
+    if (turns_) {
+      alpha = w_Theta(z_dd);
+      a += alpha.cross(p_PQ - p_PI());
+    }
+    return spatial(alpha, a);
   }
 
   /// load += Theta^T F_Io of a moment t and a force f at a point Q.

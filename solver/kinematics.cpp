@@ -88,9 +88,10 @@ template <class T>
                                             BodyMotionT<T>& s) {
   const Interface<T> frame = parent_interface(system, body, ev);
   const Vector3T<T> w_PI = frame.w_PI(), p_IB = s.p_PB - frame.p_PI();
-  const Vector3T<T> alpha = frame.alpha_bias(w_P);
+  const Vector3T<T> alpha = frame.alpha_bias(w_P), alpha_IB = w_PI.cross(w_rel);
+  const Vector3T<T> a = acceleration_by_turning(w_P, w_PI, alpha, p_IB, v_rel);
   s.V += spatial(w_PI, w_PI.cross(p_IB));
-  s.c += spatial(alpha + w_PI.cross(w_rel), acceleration_by_turning(w_P, w_PI, alpha, p_IB, v_rel));
+  s.c += spatial(Vector3T<T>(alpha + alpha_IB), a);
 }
 
 template <class Joint, class T>
