@@ -4,7 +4,7 @@
 
 namespace wishbone {
 
-/// Index of a marker: a frame M fixed to a body (or, on a flexible body, to one of its interface nodes) at which
+/// Index of a marker: a frame M fixed to a body (or, on a flexible body, to one of its interfaces) at which
 /// joints and forces take hold. Everything outside `bodies` and the recursions sees bodies only through markers.
 using MarkerIndex = int;
 

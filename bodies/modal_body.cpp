@@ -82,11 +82,13 @@ MatrixX equivalent_rows(const MatrixX& rows) {
 
 }  // namespace
 
-ModalBody::ModalBody(const ModeSet& modes, const std::vector<int>& interface_node_ids, InertiaTerms terms)
-    : ModalBody((modes.validate(), shapes_of(modes)), interface_node_ids, terms) {}
+ModalBody::ModalBody(const ModeSet& modes, const std::vector<int>& interface_node_ids,
+                     const std::vector<InterfaceFrame>& frames, InertiaTerms terms)
+    : ModalBody((modes.validate(), shapes_of(modes)), interface_node_ids, frames, terms) {}
 
-ModalBody::ModalBody(ShapeSet set, const std::vector<int>& interface_node_ids, InertiaTerms terms)
-    : set_(std::move(set)), terms_(terms) {
+ModalBody::ModalBody(ShapeSet set, const std::vector<int>& interface_node_ids,
+                     const std::vector<InterfaceFrame>& frames, InertiaTerms terms)
+    : set_(std::move(set)), terms_(terms), node_count_(static_cast<int>(interface_node_ids.size())) {
   set_.validate();
   mass_ = set_.node_mass.sum();
   if (!mean_axes()) {
@@ -96,11 +98,18 @@ ModalBody::ModalBody(ShapeSet set, const std::vector<int>& interface_node_ids, I
 
   const std::vector<int> order = interface_first(set_, interface_node_ids);
   const std::span<const int> nodes(order);
-  const int k = static_cast<int>(interface_node_ids.size()), m = mode_count();
+  const int k = node_count_, m = mode_count();
   inverse_root_mass_.resize(k);
   for (int i = 0; i < k; ++i) {
     interface_shapes_.push_back(set_.shapes.middleRows<3>(3 * order[i]));
     inverse_root_mass_[i] = 1 / std::sqrt(set_.node_mass[order[i]]);
+  }
+  frame_origins_.resize(3, static_cast<Eigen::Index>(frames.size()));
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    FrameShapes shapes = frame_shapes(frames[f], set_);
+    frame_origins_.col(static_cast<Eigen::Index>(f)) = shapes.origin;
+    interface_shapes_.push_back(std::move(shapes.translation));
+    frame_rotations_.push_back(std::move(shapes.rotation));
   }
 
   const MatrixX own = mass_weighted_rows(set_, nodes.first(k));
@@ -120,6 +129,7 @@ ModalBodyStateT<T> ModalBody::make_state() const {
   state.z = state.zdot = state.h_bias = VectorXT<T>::Zero(m);
   state.S = Matrix3XT<T>::Zero(3, m);
   state.interface_b = state.interface_delta_dot = Matrix3XT<T>::Zero(3, k);
+  state.turns.resize(frame_rotations_.size());
   state.delta = state.b = state.delta_dot = state.bias = PointsT<T>::Zero(s_.rows(), 3);
   const VectorXT<T> rest = VectorXT<T>::Zero(m);
   set_position<T>(rest.data(), state);
@@ -128,13 +138,34 @@ ModalBodyStateT<T> ModalBody::make_state() const {
 }
 
 template <class T>
+void ModalBody::place_frames(ModalBodyStateT<T>& state) const {
+  for (std::size_t f = 0; f < state.turns.size(); ++f) {
+    const auto i = static_cast<Eigen::Index>(f), interface = node_count_ + i;
+    const Vector3T<T> u = interface_shapes_[interface] * state.z, phi = frame_rotations_[f] * state.z;
+    state.interface_b.col(interface) = frame_origins_.col(i) + u;
+    state.turns[f].set_position(phi);
+  }
+}
+
+template <class T>
+void ModalBody::move_frames(ModalBodyStateT<T>& state) const {
+  for (std::size_t f = 0; f < state.turns.size(); ++f) {
+    const Eigen::Index interface = node_count_ + static_cast<Eigen::Index>(f);
+    const Vector3T<T> phi_rate = frame_rotations_[f] * state.zdot;
+    state.interface_delta_dot.col(interface) = interface_shapes_[interface] * state.zdot;
+    state.turns[f].set_velocity(phi_rate);
+  }
+}
+
+template <class T>
 void ModalBody::set_position(const T* z, ModalBodyStateT<T>& state) const {
-  const Eigen::Index p = s_.rows(), k = interface_count();
+  const Eigen::Index p = s_.rows(), k = node_count_;
   state.z = Eigen::Map<const VectorXT<T>>(z, mode_count());
   // delta_i = Psi_i z,  b_i = s_i + delta_i
   stacked(state.delta).noalias() = shapes_ * state.z;
   state.b = s_ + state.delta;
-  state.interface_b = (inverse_root_mass_.asDiagonal() * state.b.topRows(k)).transpose();
+  state.interface_b.leftCols(k) = (inverse_root_mass_.asDiagonal() * state.b.topRows(k)).transpose();
+  place_frames(state);
   state.J = inertia(state.b);
   if (!mean_axes()) state.c.noalias() = P_ * state.z;  // sum m_i s_i = 0
   if (terms_ == InertiaTerms::source) return;
@@ -152,12 +183,14 @@ void ModalBody::set_position(const T* z, ModalBodyStateT<T>& state) const {
 
 template <class T>
 void ModalBody::set_velocity(const Vector3T<T>& w_B, const T* zdot, ModalBodyStateT<T>& state) const {
-  const Eigen::Index k = interface_count();
+  const Eigen::Index k = node_count_;
   state.w_B = w_B;
   state.zdot = Eigen::Map<const VectorXT<T>>(zdot, mode_count());
   // delta_i' = Psi_i z'
   stacked(state.delta_dot).noalias() = shapes_ * state.zdot;
-  state.interface_delta_dot = (inverse_root_mass_.asDiagonal() * state.delta_dot.topRows(k)).transpose();
+  state.interface_delta_dot.leftCols(k) =
+      (inverse_root_mass_.asDiagonal() * state.delta_dot.topRows(k)).transpose();
+  move_frames(state);
   // bias_i = w x (w x b_i) + 2 w x delta_i', a row for each point
   const Matrix3T<T> w = skew(w_B), ww = w * w;
   state.bias.noalias() = state.b.lazyProduct(ww.transpose());

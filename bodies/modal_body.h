@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "bodies/interface_frame.h"
 #include "bodies/mode_set.h"
 #include "bodies/shape_set.h"
 
@@ -15,18 +16,21 @@ template <class T>
 struct ModalBodyStateT {
   // Position stage, written by set_position().
   VectorXT<T> z;                        ///< m, modal coordinates [m sqrt(kg)]
-  Matrix3XT<T> interface_b;             ///< 3 x k, p_BoP of each interface node [m]
+  Matrix3XT<T> interface_b;             ///< 3 x k, p_BoP of each interface [m]
   Matrix3T<T> J = Matrix3T<T>::Zero();  ///< inertia about Bo of the deformed body, -sum m_i b_i~ b_i~ [kg m2]
   Matrix3XT<T> S;                       ///< 3 x m, sum m_i b_i~ Psi_i [m sqrt(kg)]
   Vector3T<T> c = Vector3T<T>::Zero();  ///< sum m_i b_i; zero with mean axes [kg m]
 
   // Velocity stage, written by set_velocity().
-  VectorXT<T> zdot;                       ///< m [m sqrt(kg)/s]
-  Vector3T<T> w_B = Vector3T<T>::Zero();  ///< angular velocity of the body axes [rad/s]
-  Matrix3XT<T> interface_delta_dot;       ///< 3 x k, velocity in the body axes of each interface node [m/s]
+  VectorXT<T> zdot;                          ///< m [m sqrt(kg)/s]
+  Vector3T<T> w_B = Vector3T<T>::Zero();     ///< angular velocity of the body axes [rad/s]
+  Matrix3XT<T> interface_delta_dot;          ///< 3 x k, velocity in the body axes of each interface [m/s]
   Vector3T<T> t_bias = Vector3T<T>::Zero();  ///< w x (J w) + 2 sum m_i b_i x (w x delta_i') [N m]
   Vector3T<T> f_bias = Vector3T<T>::Zero();  ///< w x (w x c) + 2 w x c'; zero with mean axes [N]
   VectorXT<T> h_bias;  ///< m, sum m_i Psi_i^T (w x (w x b_i) + 2 w x delta_i') + C z' + K z
+
+  /// Of the interfaces that are frames, written in both stages.
+  std::vector<FrameTurnT<T>> turns;
 
   // Mass-weighted points (rows) used by the sums; see ModalBody.
   using Points = Eigen::Matrix<T, Eigen::Dynamic, 3>;
@@ -62,15 +66,19 @@ enum class InertiaTerms {
 /// moments sum (m_i [s_i Psi_i]^T [s_i Psi_i]), and where more than 3 (m + 1) of them remain they are
 /// exchanged for that number of equivalent points with the same moments, so the cost of an evaluation does
 /// not grow with the mesh.
+///
+/// Joints and forces take hold at interfaces: nodes, which move but do not turn, and frames over several nodes, which
+/// do both (bodies/interface_frame.h). Nodes are numbered first, frames after them.
 class ModalBody {
  public:
-  /// Forces may act at the interface nodes, given by id; their order numbers them from 0.
-  /// Throws InputError if the set is not valid (ShapeSet::validate), or a node is unknown or named twice.
+  /// Forces may act at the interface nodes, given by id, and moments too at the frames; their order numbers them from 0.
+  /// Throws InputError if the set is not valid (ShapeSet::validate), a node is unknown or named twice, or as
+  /// frame_shapes does.
   ModalBody(ShapeSet set, const std::vector<int>& interface_node_ids,
-            InertiaTerms terms = InertiaTerms::consistent);
+            const std::vector<InterfaceFrame>& frames = {}, InertiaTerms terms = InertiaTerms::consistent);
   /// @throws InputError as the other, and if the modes are not valid (ModeSet::validate)
   ModalBody(const ModeSet& modes, const std::vector<int>& interface_node_ids,
-            InertiaTerms terms = InertiaTerms::consistent);
+            const std::vector<InterfaceFrame>& frames = {}, InertiaTerms terms = InertiaTerms::consistent);
 
   int mode_count() const { return set_.shape_count(); }
   int interface_count() const { return static_cast<int>(interface_shapes_.size()); }
@@ -81,8 +89,19 @@ class ModalBody {
   bool mean_axes() const { return set_.mean_axes; }
   /// P = sum m_i Psi_i (3 x m), what z'' adds to the linear momentum's rate; empty with mean axes [sqrt(kg)].
   const Matrix3X& momentum_shape() const { return P_; }
-  /// Psi_i (3 x m) of an interface node: its modal load is Psi_i^T f.
+  /// Psi_i (3 x m) of an interface, a node or the origin of a frame: the modal load of a force there is Psi_i^T f.
   const Matrix3X& interface_shape(int interface) const { return interface_shapes_[interface]; }
+  /// Whether an interface is a frame.
+  bool interface_turns(int interface) const { return interface >= node_count_; }
+  /// Rotation shapes (3 x m) of a frame: phi = rotation z.
+  const Matrix3X& interface_rotation(int interface) const {
+    return frame_rotations_[interface - node_count_];
+  }
+  /// Turn of a frame in a state.
+  template <class T>
+  const FrameTurnT<T>& interface_turn(int interface, const ModalBodyStateT<T>& state) const {
+    return state.turns[interface - node_count_];
+  }
 
   /// Arrays of the right size, at rest and undeformed.
   template <class T = double>
@@ -115,13 +134,19 @@ class ModalBody {
   /// + K z and + C z', with matrices or their diagonals.
   template <class T>
   void add_product(const MatrixX& matrix, const VectorXT<T>& z, VectorXT<T>& sum) const;
+  template <class T>
+  void place_frames(ModalBodyStateT<T>& state) const;
+  template <class T>
+  void move_frames(ModalBodyStateT<T>& state) const;
 
   ShapeSet set_;
   InertiaTerms terms_;
   double mass_ = 0;
   Matrix3X P_;
-  std::vector<Matrix3X> interface_shapes_;
-  VectorX inverse_root_mass_;  ///< k, 1/sqrt(m_i) of the interface nodes
+  int node_count_ = 0;  ///< of the interfaces that are nodes
+  std::vector<Matrix3X> interface_shapes_, frame_rotations_;
+  Matrix3X frame_origins_;     ///< 3 x frames, undeformed [m]
+  VectorX inverse_root_mass_;  ///< 1/sqrt(m_i) of the interface nodes
   ModalBodyState::Points s_;   ///< p x 3, sqrt(m_i) s_i: the interface nodes first, then the other points
   MatrixX shapes_;             ///< 3p x m, sqrt(m_i) Psi_i: all x rows, then all y rows, then all z rows
 };

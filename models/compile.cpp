@@ -15,6 +15,10 @@
 namespace wishbone {
 namespace {
 
+InterfaceFrame interface_frame(const Scene::Frame& frame) {
+  return {frame.name, frame.nodes, frame.weights};
+}
+
 /// One scene on its way into a SystemBuilder.
 class Compiler {
  public:
@@ -36,7 +40,7 @@ class Compiler {
     compiled.modes = std::move(modes_.tables);
     std::tie(compiled.system, compiled.initial) = std::move(builder_).build();
     check_recoveries(scene_, builder_, compiled.system);
-    compiled.observer = observer();
+    compiled.observer = observer(compiled.system);
     compiled.transient = transient();
     return compiled;
   }
@@ -51,6 +55,8 @@ class Compiler {
                           ? builder_.add_flexible_body(body.name, shapes_of(number), X_WB, terms_of(body))
                           : builder_.add_body(body.name, body.mass, body.inertia, X_WB);
     builder_.set_velocity(index, body.v_WBo, body.w_WB_B);
+    if (!body.is_flexible()) return;
+    for (const Scene::Frame& frame : body.flexible->frames) builder_.add_frame(index, interface_frame(frame));
   }
 
   static InertiaTerms terms_of(const Scene::Body& body) {
@@ -99,11 +105,17 @@ class Compiler {
                             model.lag));
   }
 
-  /// On a flexible body, the node; on a rigid one, whose nodes are but points of it, the place.
-  BodyPoint body_point(const Scene::Point& point) const {
+  /// On a flexible body, the node or what the frame carries; on a rigid one, whose nodes are but points of it, the place.
+  BodyPoint body_point(const Scene::Point& point, const System& system) const {
     const Scene::Body& body = scene_.bodies[point.body];
-    return {builder_.built_index(point.body), body.X_DB.R.transpose() * (point.p_DP - body.X_DB.p),
-            attachment_of(scene_, point).node_id};
+    const Attachment on = attachment_of(scene_, point);
+    BodyPoint out{builder_.built_index(point.body), body.X_DB.R.transpose() * (point.p_DP - body.X_DB.p),
+                  on.node_id};
+    if (on.frame >= 0) {
+      const ModalBody& modal = system.flexible[system.bodies[out.body].flexible].modal;
+      out.frame = frame_shapes(interface_frame(body.flexible->frames[on.frame]), modal.set());
+    }
+    return out;
   }
 
   std::string units_of(const Scene::Signal& signal) const {
@@ -113,7 +125,7 @@ class Compiler {
     return std::string(is_angle ? "rad" : "m") + (signal.is_speed ? "/s" : "");
   }
 
-  ObserverOptions observer() const {
+  ObserverOptions observer(const System& system) const {
     ObserverOptions options;
     for (const Scene::FlexibleOutput& output : scene_.output.flexible)
       options.flexible.push_back({builder_.built_index(output.body), output.nodes, output.signals});
@@ -121,7 +133,7 @@ class Compiler {
       options.recoveries.push_back(
           {output.name, output.unit, builder_.built_index(output.body), output.rows, output.matrix});
     for (const Scene::PointOutput& output : scene_.output.points)
-      options.points.push_back({output.name, body_point(output.point)});
+      options.points.push_back({output.name, body_point(output.point, system)});
     for (const Scene::Signal& signal : scene_.signals)
       options.signals.push_back({signal.name, units_of(signal)});
     if (!scene_.vehicle) return options;

@@ -7,7 +7,13 @@ namespace wishbone {
 std::vector<int> interface_nodes(const Scene& scene, int body) {
   std::set<int> nodes;
   const auto note = [&](const Scene::Point& point) {
-    if (point.body == body && point.node != 0) nodes.insert(point.node);
+    if (point.body != body) return;
+    if (point.node != 0) nodes.insert(point.node);
+    if (point.frame >= 0) {
+      const auto& frame = scene.bodies[static_cast<std::size_t>(body)]
+                              .flexible->frames[static_cast<std::size_t>(point.frame)];
+      nodes.insert(frame.nodes.begin(), frame.nodes.end());
+    }
   };
   for (const Scene::Joint& joint : scene.joints) {
     note(joint.first);

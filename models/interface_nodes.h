@@ -6,7 +6,8 @@
 
 namespace wishbone {
 
-/// The nodes of a body that joints, closures, springs and loads of the scene take hold of, ascending, each once.
+/// The nodes of a body that joints, closures, springs and loads of the scene take hold of, those of frames among
+/// them, ascending, each once.
 /// Signals and outputs, which only look, do not count.
 std::vector<int> interface_nodes(const Scene& scene, int body);
 

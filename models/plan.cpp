@@ -12,7 +12,10 @@ namespace {
 std::string tree_line(const System& system, const TreeBody& body) {
   const std::string parent = body.parent < 0 ? "ground" : system.bodies[body.parent].name;
   std::string line = fmt::format("{}: {} on {}{}, {} freedom{}", body.name, joint_kind(body.joint), parent,
-                                 body.parent_node >= 0 ? " (a node)" : "", body.nv, body.nv == 1 ? "" : "s");
+                                 body.on_frame                ? " (a frame)"
+                                 : body.parent_interface >= 0 ? " (a node)"
+                                                              : "",
+                                 body.nv, body.nv == 1 ? "" : "s");
   if (body.flexible >= 0)
     line += fmt::format(", {} elastic modes", system.flexible[body.flexible].modal.mode_count());
   return line;

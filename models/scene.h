@@ -31,6 +31,7 @@ struct Scene {
     int body = kGround;              ///< index into `bodies`, or kGround
     int node = 0;                    ///< id of a node of the body; 0: none was named
     Vector3 p_DP = Vector3::Zero();  ///< position in D [m]; that of the node when one was named
+    int frame = -1;  ///< index into the frames of the body that carries it; -1: none was named
   };
 
   /// A rectangular block of 8-node hexahedra, centred at the body origin, edges along the body axes.
@@ -53,6 +54,15 @@ struct Scene {
     bool empty() const { return !interfaces && ids.empty(); }
   };
 
+  /// A frame over several nodes of a body, which follows them in the mean.
+  struct Frame {
+    std::string name;
+    std::vector<int> nodes;
+    std::vector<double> weights;  ///< of each node; empty: all one
+    Vector3 centre_B =
+        Vector3::Zero();  ///< weighted centre of the nodes, body axes, from the mass centre [m]
+  };
+
   /// Nodes of a body and where its elastic modes come from: a block, a model, or an identification.
   struct Flexible {
     std::vector<int> node_ids;
@@ -69,6 +79,7 @@ struct Scene {
     std::optional<double> common_damping;
     std::optional<FixedAxes> fixed_axes;  ///< node ids; empty: mean axes
     bool source_terms = false;            ///< inertial coupling as in the source, not all that there is
+    std::vector<Frame> frames;
   };
 
   enum class BodyForm { kRigid, kModal, kNodal };

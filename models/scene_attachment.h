@@ -5,11 +5,12 @@
 
 namespace wishbone {
 
-/// What a point of a scene takes hold of: a flexible body at its node, a rigid one (whose nodes are but points of it) as a
-/// whole.
+/// What a point of a scene takes hold of: a flexible body at its node or frame, a rigid one (whose nodes and frames are but
+/// points of it) as a whole.
 inline Attachment attachment_of(const Scene& scene, const Scene::Point& point) {
   const bool flexible = point.body != Scene::kGround && scene.bodies[point.body].is_flexible();
-  return {point.body, flexible ? point.node : 0};
+  if (!flexible) return {point.body};
+  return {point.body, point.node, point.frame};
 }
 
 }  // namespace wishbone

@@ -5,6 +5,7 @@
 #include <memory>
 #include <numbers>
 
+#include "bodies/interface_frame.h"
 #include "identification/body_nodes.h"
 #include "identification/elements/hexahedral_mesh.h"
 #include "models/identification_loader.h"
@@ -203,6 +204,41 @@ void take_nodes(const Mapping& keys, bool needed, Scene::Flexible& flexible, Sce
     take_block(read_block(keys.required("block"), keys.required("material")), flexible);
 }
 
+/// {nodes: [...], weights: [...]}.
+Scene::Frame read_frame(const std::string& name, const Value& value, const Scene::Flexible& flexible) {
+  Scene::Frame frame;
+  frame.name = name;
+  const auto place = [&](int id) {
+    return std::find(flexible.node_ids.begin(), flexible.node_ids.end(), id);
+  };
+  const Mapping keys(value, {"nodes", "weights"});
+  const Value nodes = keys.required("nodes");
+  for (const Value& item : nodes.list()) {
+    const int node = item.integer(std::numeric_limits<int>::min(), std::numeric_limits<int>::max());
+    if (place(node) == flexible.node_ids.end())
+      item.refuse("the body has no such node", identification_sections::nodes_text(flexible.node_ids));
+    if (std::find(frame.nodes.begin(), frame.nodes.end(), node) != frame.nodes.end())
+      item.refuse("the frame has this node already", "name each node once; weights let some count more");
+    frame.nodes.push_back(node);
+  }
+  if (const auto weights = keys.optional("weights")) {
+    for (const Value& item : weights->list()) frame.weights.push_back(item.positive(kRatio));
+    if (frame.weights.size() != frame.nodes.size())
+      weights->refuse(
+          fmt::format("there are {} weights for {} nodes", frame.weights.size(), frame.nodes.size()),
+          "give one weight per node, or leave them out for equal ones");
+  }
+
+  Matrix3X position(3, static_cast<Eigen::Index>(frame.nodes.size()));
+  for (std::size_t i = 0; i < frame.nodes.size(); ++i)
+    position.col(static_cast<Eigen::Index>(i)) =
+        flexible.node_position.col(place(frame.nodes[i]) - flexible.node_ids.begin());
+  frame.centre_B = within(nodes.where(), [&] {
+    return frame_geometry({name, frame.nodes, frame.weights}, position).origin;
+  });
+  return frame;
+}
+
 /// `mean`, or {fixed: [o, i, j]}.
 std::optional<Scene::FixedAxes> read_axes(const Value& value, const std::vector<int>& node_ids) {
   if (value.is_word("mean")) return std::nullopt;
@@ -224,8 +260,8 @@ std::optional<Scene::FixedAxes> read_axes(const Value& value, const std::vector<
 }  // namespace
 
 Scene::Flexible read_flexible(const Value& value, Scene& scene) {
-  const Mapping keys(value, {"block", "material", "model", "modes", "below", "attachment", "constraint", "damping",
-                             "axes", "inertia"});
+  const Mapping keys(value, {"block", "material", "model", "modes", "below", "attachment", "constraint",
+                             "damping", "axes", "inertia", "frames"});
   Scene::Flexible flexible;
   const Value modes = keys.required("modes");
   const bool identified = modes.is_mapping() && !has_any(modes, {"lowest", "below", "list"});
@@ -240,6 +276,9 @@ Scene::Flexible read_flexible(const Value& value, Scene& scene) {
   }
   if (const auto damping = keys.optional("damping"))
     take_damping(*damping, identified ? std::nullopt : known_count(flexible), flexible);
+  if (const auto frames = keys.optional("frames"))
+    for (const auto& [name, frame] : frames->named())
+      flexible.frames.push_back(read_frame(name, frame, flexible));
   if (const auto axes = keys.optional("axes")) flexible.fixed_axes = read_axes(*axes, flexible.node_ids);
   if (const auto inertia = keys.optional("inertia"))
     flexible.source_terms =

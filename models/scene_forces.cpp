@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "models/scene_sections.h"
@@ -66,32 +67,39 @@ Scene::TireModel read_tire_model(const std::string& name, const Value& value) {
 
 }  // namespace
 
-Scene::Point read_point(const Scene& scene, int body, const std::optional<Value>& at,
-                        const std::optional<Value>& node, const Value& place) {
+Scene::Point read_point(const Scene& scene, const Mapping& keys, const Value& place) {
+  const int body = read_body(scene, keys.required("body"));
   const Scene::Body& holder = scene.bodies[static_cast<std::size_t>(body)];
-  if (at && node) place.refuse("the point is named twice, by 'at' and by 'node'", "remove one of them");
+  const auto at = keys.optional("at"), node = keys.optional("node"), frame = keys.optional("frame");
+  if (node && (at || frame)) {
+    place.refuse(fmt::format("the point is named twice, by '{}' and by 'node'", at ? "at" : "frame"),
+                 "remove one of them");
+  }
   if (node) {
     const int number = read_node(*node, holder);
     return {body, number, node_place(holder, number)};
   }
+  if (frame) {
+    const int index = read_frame_name(*frame, holder);
+    return {body, 0, at ? at->vector3(kLength) : frame_place(holder, index), index};
+  }
   if (holder.is_flexible()) {
-    place.refuse(fmt::format("the flexible body '{}' can be held at its nodes only", holder.name),
-                 "name one with 'node'");
+    place.refuse(fmt::format("the flexible body '{}' can be held at its nodes and frames only", holder.name),
+                 "name one with 'node' or 'frame'");
   }
   return {body, 0, at ? at->vector3(kLength) : holder.X_DB.p};
 }
 
 Scene::Point read_end(const Scene& scene, const Value& value) {
-  const Mapping keys(value, {"ground", "body", "at", "node"});
+  const Mapping keys(value, {"ground", "body", "at", "node", "frame"});
   if (const auto ground = keys.optional("ground")) {
-    if (keys.has("body") || keys.has("at") || keys.has("node")) {
+    if (std::any_of(kPointKeys.begin(), kPointKeys.end(), [&](auto key) { return keys.has(key); })) {
       value.refuse("a point is on the ground or on a body",
                    "write {ground: [x, y, z]} or {body: ..., at: [x, y, z]}");
     }
     return {Scene::kGround, 0, ground->vector3(kLength)};
   }
-  const int body = read_body(scene, keys.required("body"));
-  return read_point(scene, body, keys.optional("at"), keys.optional("node"), value);
+  return read_point(scene, keys, value);
 }
 
 void read_springs(const Value& section, Scene& scene) {

@@ -12,10 +12,13 @@ namespace {
 /// Two points that a joint holds together must coincide this well in the design pose [m].
 constexpr double kCoincidence = 1e-6;
 
-/// One of the two `bodies` of a joint: `ground`, a body, or {body, node}.
+/// One of the two `bodies` of a joint: `ground`, a body, or {body, node} or {body, frame}.
 struct Side {
   Value value;
   Scene::Point point;
+
+  bool at_node() const { return point.node != 0; }
+  bool on_frame() const { return point.frame >= 0; }
 };
 
 Side read_side(const Scene& scene, const Value& value) {
@@ -25,9 +28,15 @@ Side read_side(const Scene& scene, const Value& value) {
     side.point.body = read_body(scene, value);
     return side;
   }
-  const Mapping keys(value, {"body", "node"});
+  const Mapping keys(value, {"body", "node", "frame"});
   side.point.body = read_body(scene, keys.required("body"));
   const Scene::Body& body = scene.bodies[static_cast<std::size_t>(side.point.body)];
+  if (const auto frame = keys.optional("frame")) {
+    if (keys.has("node")) value.refuse("the joint is given a node and a frame", "remove one of them");
+    side.point.frame = read_frame_name(*frame, body);
+    side.point.p_DP = frame_place(body, side.point.frame);
+    return side;
+  }
   side.point.node = read_node(keys.required("node"), body);
   side.point.p_DP = node_place(body, side.point.node);
   return side;
@@ -43,44 +52,61 @@ std::pair<Side, Side> read_sides(const Scene& scene, const Value& value) {
   return {parent, child};
 }
 
-/// A flexible body is held at a node, by a joint that leaves the node free to turn; or floats as a whole.
+/// A flexible body is held at a node, by a joint that leaves the node free to turn; on a frame, by any joint; or floats as a
+/// whole.
 void check_hold(const Scene& scene, const Side& side, JointKind kind) {
   if (kind == JointKind::free) {
-    if (side.point.node != 0)
-      side.value.refuse("a free joint joins whole bodies", "name the body without a node");
+    if (side.at_node() || side.on_frame())
+      side.value.refuse("a free joint joins whole bodies", "name the body without a node or frame");
     return;
   }
-  if (side.point.body == Scene::kGround) return;
+  if (side.point.body == Scene::kGround || side.on_frame()) return;
   const Scene::Body& body = scene.bodies[static_cast<std::size_t>(side.point.body)];
   if (!body.is_flexible()) return;
-  if (side.point.node == 0) {
-    side.value.refuse(fmt::format("the flexible body '{}' can be held at its nodes only", body.name),
-                      fmt::format("write {{body: {}, node: ...}}", body.name));
+  if (!side.at_node()) {
+    side.value.refuse(
+        fmt::format("the flexible body '{}' can be held at its nodes and frames only", body.name),
+        fmt::format("write {{body: {}, node: ...}} or {{body: {}, frame: ...}}", body.name, body.name));
   }
   if (kind != JointKind::spherical) {
     side.value.refuse("a node of a flexible body can only be held by a spherical joint",
-                      "use 'type: spherical'");
+                      "use 'type: spherical', or hold a frame over several nodes");
   }
 }
 
-/// Gives both points their common position: `at`, that of the node, or both when they agree.
+bool disagree(const Vector3& a, const Vector3& b) {
+  return !((a - b).norm() <= kCoincidence);
+}
+
+std::string shown(const Vector3& p) {
+  return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", p.x(), p.y(), p.z());
+}
+
+/// Where the joint is: `at`, else the node of a side, else the centre of a frame.
+Vector3 read_place(const Mapping& keys, const Side& first, const Side& second) {
+  if (const auto at = keys.optional("at")) return at->vector3(kLength);
+  for (const Side* side : {&first, &second})
+    if (side->at_node()) return side->point.p_DP;
+  if (first.on_frame() && second.on_frame() && disagree(first.point.p_DP, second.point.p_DP)) {
+    keys.refuse(fmt::format("the frames have their centres at {} and {}", shown(first.point.p_DP),
+                            shown(second.point.p_DP)),
+                "say where the joint is with 'at'; the frames carry it");
+  }
+  for (const Side* side : {&first, &second})
+    if (side->on_frame()) return side->point.p_DP;
+  return keys.required("at").vector3(kLength);  // which is missing
+}
+
+/// Gives both points the place of the joint, which a node must agree with; a frame carries whatever place it is.
 void place(const Mapping& keys, Side& first, Side& second) {
-  const auto at = keys.optional("at");
-  const auto disagrees = [](const Vector3& a, const Vector3& b) { return !((a - b).norm() <= kCoincidence); };
-  if (!at && first.point.node == 0 && second.point.node == 0) keys.required("at");  // which is missing
-  const Vector3 p_DP = at                      ? at->vector3(kLength)
-                       : first.point.node != 0 ? first.point.p_DP
-                                               : second.point.p_DP;
+  const Vector3 p_DP = read_place(keys, first, second);
   for (Side* side : {&first, &second}) {
-    if (side->point.node == 0) {
-      side->point.p_DP = p_DP;
-    } else if (disagrees(side->point.p_DP, p_DP)) {
-      const Vector3& n = side->point.p_DP;
+    if (side->at_node() && disagree(side->point.p_DP, p_DP)) {
       side->value.refuse(
-          fmt::format("the node is at [{:.6g}, {:.6g}, {:.6g}], the joint at [{:.6g}, {:.6g}, {:.6g}]", n.x(),
-                      n.y(), n.z(), p_DP.x(), p_DP.y(), p_DP.z()),
+          fmt::format("the node is at {}, the joint at {}", shown(side->point.p_DP), shown(p_DP)),
           "name another node, or correct or remove 'at'");
     }
+    if (!side->at_node()) side->point.p_DP = p_DP;
   }
 }
 

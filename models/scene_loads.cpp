@@ -6,12 +6,11 @@ namespace wishbone::scene_sections {
 namespace {
 
 Scene::Load read_load(const std::string& name, const Value& value, Scene& scene) {
-  const Mapping keys(value, {"body", "at", "node", "force", "moment", "axes"});
+  const Mapping keys(value, {"body", "at", "node", "frame", "force", "moment", "axes"});
   Scene::Load load;
   load.name = name;
   load.where = value.where();
-  load.point = read_point(scene, read_body(scene, keys.required("body")), keys.optional("at"),
-                          keys.optional("node"), value);
+  load.point = read_point(scene, keys, value);
   if (!keys.has("force") && !keys.has("moment")) keys.refuse("the load is empty", "give 'force' or 'moment'");
   if (const auto force = keys.optional("force")) load.force = read_functions(*force, kForce, scene);
   if (const auto moment = keys.optional("moment")) load.moment = read_functions(*moment, kMoment, scene);
@@ -40,7 +39,8 @@ Scene::Drive read_drive(const std::string& name, const Value& value, Scene& scen
 
 void read_loads(const Value& section, Scene& scene) {
   for (const auto& [name, value] : section.named()) {
-    const Mapping any(value, {"body", "at", "node", "force", "moment", "axes", "joint", "coordinate"});
+    const Mapping any(value,
+                      {"body", "at", "node", "frame", "force", "moment", "axes", "joint", "coordinate"});
     if (any.has("joint"))
       scene.drives.push_back(read_drive(name, value, scene));
     else

@@ -133,7 +133,7 @@ void read_output(const Value& section, Scene& scene) {
       output.recoveries.push_back(read_recovery(name, value, scene));
   if (const auto points = keys.optional("points"))
     for (const auto& [name, value] : points->named()) {
-      const Mapping point(value, {"body", "at", "node"});
+      const Mapping point(value, {"body", "at", "node", "frame"});
       output.points.push_back({name, read_point(scene, read_body(scene, point.required("body")),
                                                 point.optional("at"), point.optional("node"), value)});
     }

@@ -83,9 +83,18 @@ Vector3 node_place(const Scene::Body& body, int node);
 /// The id of a node of a body; throws InputError when the body has no such node.
 int read_node(const Value& node, const Scene::Body& body);
 
-/// The point of a body that is named by a node or by a position in D, by default the mass centre.
-Scene::Point read_point(const Scene& scene, int body, const std::optional<Value>& at,
-                        const std::optional<Value>& node, const Value& place);
+/// Position of the centre of a frame in D [m].
+Vector3 frame_place(const Scene::Body& body, int frame);
+
+/// The index of a frame of a body; throws InputError when the body has no such frame.
+int read_frame_name(const Value& frame, const Scene::Body& body);
+
+/// Keys that name a point of a body.
+inline constexpr std::array<std::string_view, 4> kPointKeys{"body", "at", "node", "frame"};
+
+/// The point of the body that the key `body` names: a node, a position in D that the body or one of its frames carries, by
+/// default the mass centre or the centre of the frame. `place` is that of the mapping.
+Scene::Point read_point(const Scene& scene, const Mapping& keys, const Value& place);
 
 template <class T>
 std::vector<std::string> names_of(const std::vector<T>& things) {

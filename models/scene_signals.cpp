@@ -19,10 +19,9 @@ void check_name(const std::string& name, const Value& value, const Scene& scene)
 }
 
 void read_component(const Value& value, const Scene& scene, Scene::Signal& signal) {
-  const Mapping keys(value, {"body", "at", "node", "component", "quantity"});
+  const Mapping keys(value, {"body", "at", "node", "frame", "component", "quantity"});
   signal.type = Type::kComponent;
-  signal.from = read_point(scene, read_body(scene, keys.required("body")), keys.optional("at"),
-                           keys.optional("node"), value);
+  signal.from = read_point(scene, keys, value);
   signal.axis = keys.required("component").choice<int>({{"x", 0}, {"y", 1}, {"z", 2}}, "the components");
 }
 
@@ -40,8 +39,8 @@ Scene::Signal read_signal(const std::string& name, const Value& value, const Sce
   signal.name = name;
   signal.where = value.where();
   check_name(name, value, scene);
-  const Mapping any(value,
-                    {"joint", "coordinate", "from", "to", "body", "at", "node", "component", "quantity"});
+  const Mapping any(
+      value, {"joint", "coordinate", "from", "to", "body", "at", "node", "frame", "component", "quantity"});
   if (any.has("joint")) {
     const Mapping keys(value, {"joint", "coordinate", "quantity"});
     signal.type = Type::kCoordinate;

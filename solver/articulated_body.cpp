@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "solver/interface.h"
 
 namespace wishbone {
 namespace {
@@ -66,10 +67,8 @@ void condense_modes(const FlexibleBody& flexible, Matrix6& P, CondensedModes& f)
 
 /// Adds a child's inertia P+ (about the child's origin) to a flexible parent through the node that carries it:
 /// A_child = shift(A_parent) + (0, R Psi z'').
-void add_to_flexible_parent(const Matrix6& P_plus, const BodyMotion& child, const TreeBody& body,
-                            const FlexibleBody& parent_flexible, const Matrix3& R_WP, CondensedModes& f) {
-  const Matrix3X& Psi = parent_flexible.modal.interface_shape(body.parent_node);  // 3 x m, parent axes
-  if (Psi.cols() == 0) return;
+void add_through_node(const Matrix6& P_plus, const BodyMotion& child, const Matrix3X& Psi,
+                      const Matrix3& R_WP, CondensedModes& f) {
   Eigen::Matrix<double, 6, 3> X_P = P_plus.rightCols<3>();
   X_P.topRows<3>() += skew(child.p_PB) * P_plus.bottomRightCorner<3, 3>();
   const Eigen::Matrix<double, 3, 6> M_zr_block = R_WP.transpose() * X_P.transpose();
@@ -77,6 +76,44 @@ void add_to_flexible_parent(const Matrix6& P_plus, const BodyMotion& child, cons
   f.Y.noalias() += Psi.transpose() * M_zr_block;
   f.P_Psi.noalias() = P_ll_P * Psi;
   f.M_zz.triangularView<Eigen::Lower>() += Psi.transpose() * f.P_Psi;
+}
+
+/// The same through a frame I. With P_I the inertia about Io and Theta = E Psi, E = diag(R J, R), Psi = [Psi_phi; Psi_u]:
+///   M_zr += Psi^T E^T P_I X_PI,   M_zz += Psi^T (E^T P_I E) Psi.
+void add_through_frame(const Matrix6& P_plus, const BodyMotion& child, const Interface<double>& frame,
+                       const Matrix3& R_WP, CondensedModes& f) {
+  const Vector3 p_PI = frame.p_PI();
+  Matrix6 P_I = Matrix6::Zero();
+  add_shifted_inertia(P_plus, child.p_PB - p_PI, P_I);
+  const Matrix3 R_WJ = frame.R_WJ();
+  Matrix6 P_E;
+  P_E << P_I.leftCols<3>() * R_WJ, P_I.rightCols<3>() * R_WP;
+  const Matrix3X &Psi_phi = frame.rotation(), &Psi_u = frame.translation();
+  Matrix6 X_P_E = P_E;
+  X_P_E.topRows<3>() += skew(p_PI) * P_E.bottomRows<3>();
+  f.Y.noalias() += Psi_phi.transpose() * X_P_E.leftCols<3>().transpose();
+  f.Y.noalias() += Psi_u.transpose() * X_P_E.rightCols<3>().transpose();
+  const Eigen::Matrix<double, 3, 6> phi_rows = R_WJ.transpose() * P_E.topRows<3>();
+  const Eigen::Matrix<double, 3, 6> u_rows = R_WP.transpose() * P_E.bottomRows<3>();
+  f.P_Psi.noalias() = phi_rows.leftCols<3>() * Psi_phi;
+  f.P_Psi.noalias() += phi_rows.rightCols<3>() * Psi_u;
+  f.M_zz.triangularView<Eigen::Lower>() += Psi_phi.transpose() * f.P_Psi;
+  f.P_Psi.noalias() = u_rows.leftCols<3>() * Psi_phi;
+  f.P_Psi.noalias() += u_rows.rightCols<3>() * Psi_u;
+  f.M_zz.triangularView<Eigen::Lower>() += Psi_u.transpose() * f.P_Psi;
+}
+
+/// Adds a child's inertia P+ to the modes of the flexible parent that carries it.
+void add_to_flexible_parent(const System& system, const TreeBody& body, const Matrix6& P_plus,
+                            const BodyMotion& child, Workspace& ws) {
+  const Interface<double> interface = parent_interface<double>(system, body, ws);
+  if (interface.translation().cols() == 0) return;
+  CondensedModes& f = ws.condensed[system.bodies[body.parent].flexible];
+  const Matrix3& R_WP = ws.bodies[body.parent].X_WB.R;
+  if (body.on_frame)
+    add_through_frame(P_plus, child, interface, R_WP, f);
+  else
+    add_through_node(P_plus, child, interface.translation(), R_WP, f);
 }
 
 /// P+ = P - G G^T, one speed h of the joint after the other: g = P h / sqrt(h^T P h), P <- P - g g^T. A joint with several
@@ -191,10 +228,7 @@ void set_biases(const System& system, Terms terms, Workspace& ws) {
     eliminate_joint(body, s, ws, P);
     if (body.parent < 0) continue;
     add_shifted_inertia(P, s.p_PB, ws.articulated[body.parent].P);
-    if (body.parent_node >= 0) {
-      const int k = system.bodies[body.parent].flexible;
-      add_to_flexible_parent(P, s, body, system.flexible[k], ws.bodies[body.parent].X_WB.R, ws.condensed[k]);
-    }
+    if (body.parent_interface >= 0) add_to_flexible_parent(system, body, P, s, ws);
   }
 }
 
@@ -206,7 +240,7 @@ void set_biases(const System& system, Terms terms, Workspace& ws) {
     const BodyMotion& s = ws.bodies[i];
     ArticulatedBody& a = ws.articulated[i];
     if (body.flexible >= 0) {
-      // e_z = L_z^-1 (Q - h - what hangs on the nodes)
+      // e_z = L_z^-1 (Q - h - what hangs on the interfaces)
       const CondensedModes& f = ws.condensed[body.flexible];
       auto e_z = modal_part(system.flexible[body.flexible], ws.e);
       if (system.flexible[body.flexible].carries_joints)
@@ -225,10 +259,9 @@ void set_biases(const System& system, Terms terms, Workspace& ws) {
     Vector6& Z_P = ws.articulated[body.parent].Z;
     Z_P.head<3>() += t + s.p_PB.cross(f);
     Z_P.tail<3>() += f;
-    if (body.parent_node >= 0) {
+    if (body.parent_interface >= 0) {
       const FlexibleBody& parent = system.flexible[system.bodies[body.parent].flexible];
-      const Vector3 f_P = ws.bodies[body.parent].X_WB.R.transpose() * f;
-      modal_part(parent, ws.e).noalias() -= parent.modal.interface_shape(body.parent_node).transpose() * f_P;
+      parent_interface<double>(system, body, ws).add_load(-t, -f, s.p_PB, modal_part(parent, ws.e));
     }
   }
 }
@@ -243,10 +276,9 @@ void set_biases(const System& system, Terms terms, Workspace& ws) {
       const BodyMotion& parent = ws.bodies[body.parent];
       A.head<3>() += angular(parent.A);
       A.tail<3>() += linear(parent.A) + angular(parent.A).cross(s.p_PB);
-      if (body.parent_node >= 0) {
-        const int k = system.bodies[body.parent].flexible;
-        const Vector3 a_P = system.flexible[k].modal.interface_shape(body.parent_node) * ws.flexible[k].z_dd;
-        A.tail<3>() += parent.X_WB.R * a_P;
+      if (body.parent_interface >= 0) {
+        const VectorX& z_dd = ws.flexible[system.bodies[body.parent].flexible].z_dd;
+        A += parent_interface<double>(system, body, ws).acceleration(z_dd, s.p_PB);
       }
     }
     accelerate_joint(body, ws, A, v_rate);

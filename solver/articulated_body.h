@@ -16,7 +16,7 @@ namespace wishbone {
 ///
 ///   M_zz = L_z L_z^T,   Y = L_z^-1 M_zr,   P = M_rr - Y^T Y.
 ///
-/// M_zz is the identity unless joints hang on the body's nodes, so a free flexible body costs O(modes).
+/// M_zz is the identity unless joints hang on the body's interfaces, so a free flexible body costs O(modes).
 
 /// P+, G and pivots of all bodies, from the tips inward. Needs update_positions.
 void factor_inertia(const System& system, Workspace& ws);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "solver/articulated_body.h"
+#include "solver/interface.h"
 
 namespace wishbone {
 namespace {
@@ -27,6 +28,20 @@ auto modal_block(const System& system, int k, int first, int columns, Workspace&
   return ws.closure.U.block(flexible.z_rate_start, first, flexible.modal.mode_count(), columns);
 }
 
+/// Adds Theta^T W of wrenches W (columns, about a point Q) to the modes of the flexible body P.
+void load_modes(const System& system, int body, int interface_index, const Vector3& p_PQ,
+                const RowBlock<6>& W, int first, Workspace& ws) {
+  const Interface<double> interface(system, body, interface_index, ws);
+  auto modes = modal_block(system, system.bodies[body].flexible, first, static_cast<int>(W.cols()), ws);
+  const RowBlock<3> f = ws.bodies[body].X_WB.R.transpose() * W.bottomRows<3>();
+  modes.noalias() += interface.translation().transpose() * f;
+  if (!interface.turns()) return;
+  RowBlock<3> t = W.topRows<3>();
+  t.noalias() += skew(p_PQ - interface.p_PI()) * W.bottomRows<3>();
+  const RowBlock<3> t_phi = interface.R_WJ().transpose() * t;
+  modes.noalias() += interface.rotation().transpose() * t_phi;
+}
+
 /// Puts the wrenches W (columns, at marker i, world axes) on the marker's body.
 void start_sweep(const System& system, MarkerIndex i, const RowBlock<6>& W, int first, Workspace& ws) {
   const Marker& marker = system.markers[i];
@@ -36,12 +51,7 @@ void start_sweep(const System& system, MarkerIndex i, const RowBlock<6>& W, int 
   auto z = wrench_block(ws, marker.body, static_cast<int>(W.cols()));
   z += W;
   z.topRows<3>().noalias() += skew(p_BM) * W.bottomRows<3>();
-  if (marker.node >= 0) {
-    const int k = system.bodies[marker.body].flexible;
-    const RowBlock<3> f_B = body.X_WB.R.transpose() * W.bottomRows<3>();
-    modal_block(system, k, first, static_cast<int>(W.cols()), ws).noalias() +=
-        system.flexible[k].modal.interface_shape(marker.node).transpose() * f_B;
-  }
+  if (marker.interface >= 0) load_modes(system, marker.body, marker.interface, p_BM, W, first, ws);
 }
 
 /// One body of the sweep: its modes, its joint, then on to the parent.
@@ -60,12 +70,8 @@ void sweep_body(const System& system, int i, int first, int columns, Workspace& 
   auto z_parent = wrench_block(ws, body.parent, columns);
   z_parent += z;
   z_parent.topRows<3>().noalias() += skew(s.p_PB) * z.bottomRows<3>();
-  if (body.parent_node >= 0) {
-    const int k = system.bodies[body.parent].flexible;
-    const RowBlock<3> f_P = ws.bodies[body.parent].X_WB.R.transpose() * z.bottomRows<3>();
-    modal_block(system, k, first, columns, ws).noalias() +=
-        system.flexible[k].modal.interface_shape(body.parent_node).transpose() * f_P;
-  }
+  if (body.parent_interface >= 0)
+    load_modes(system, body.parent, body.parent_interface, s.p_PB, z, first, ws);
 }
 
 /// Columns `first`, ... of U for the kept rows `rows` of one closure.

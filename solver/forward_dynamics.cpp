@@ -4,6 +4,7 @@
 #include "solver/articulated_body.h"
 #include "solver/closure_dynamics.h"
 #include "solver/closures.h"
+#include "solver/interface.h"
 #include "solver/inverse_dynamics.h"
 #include "solver/loads.h"
 
@@ -44,8 +45,7 @@ T calc_motion_power(const System& system, double t, const Evaluation<T>& ev) {
     const BodyMotionT<T>& s = ev.bodies[i];
     Vector6T<T> V_drift, A_drift;
     joint->calc_drift(t, static_cast<const T*>(nullptr), static_cast<const T*>(nullptr), V_drift, A_drift);
-    const Matrix3T<T> R_WP = body.parent < 0 ? Matrix3T<T>::Identity() : ev.bodies[body.parent].X_WB.R;
-    const Matrix3T<T> R_WF = R_WP * body.X_PF.R;
+    const Matrix3T<T> R_WF = inboard_axes(system, body, ev);
     const Vector3T<T> w = R_WF * angular(V_drift);
     const Vector3T<T> v = R_WF * linear(V_drift) + w.cross(s.p_MB);
     power += w.dot(angular(s.F_joint)) + v.dot(linear(s.F_joint));

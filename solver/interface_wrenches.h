@@ -11,7 +11,8 @@ namespace wishbone {
 ///     sum f_i + f_0 + m g                = m a_Bo
 ///     sum (b_i x f_i + t_i) + t_0        = J alpha + S z'' + t_bias
 ///     sum Psi_i^T f_i                    = S^T alpha + z'' + h_bias
-/// (symbols of ModalBody; a moment loads no mode, since nodes have translations only).
+/// (symbols of ModalBody; a moment on a node loads no mode, since nodes have translations only, one on a frame adds
+/// rotation^T J^T t).
 /// After calc_reactions. F has interface_count() + 1 columns. Allocates nothing.
 void calc_interface_wrenches(const System& system, int k, const Workspace& ws, Eigen::Ref<Matrix6X> F);
 

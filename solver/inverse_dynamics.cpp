@@ -2,13 +2,14 @@
 
 #include "core/dual.h"
 #include "solver/closures.h"
+#include "solver/interface.h"
 #include "solver/kinematics.h"
 #include "solver/loads.h"
 
 namespace wishbone {
 namespace {
 
-/// A_WB = shift(A_WP) + (0, R Psi z'' of the parent's node) + H v' + c.
+/// A_WB = shift(A_WP) + shift(Theta z'') of the parent's interface + H v' + c.
 template <class T>
 void accelerate_bodies(const System& system, const VectorXT<T>& v_rate, Evaluation<T>& ev) {
   for (std::size_t k = 0; k < system.flexible.size(); ++k) {
@@ -23,12 +24,9 @@ void accelerate_bodies(const System& system, const VectorXT<T>& v_rate, Evaluati
     if (body.parent < 0) continue;
     const BodyMotionT<T>& parent = ev.bodies[body.parent];
     s.A += shift_velocity(parent.A, s.p_PB);
-    if (body.parent_node >= 0) {
-      const int k = system.bodies[body.parent].flexible;
-      const Vector3T<T> a_P =
-          system.flexible[k].modal.interface_shape(body.parent_node) * ev.flexible[k].z_dd;
-      s.A.template tail<3>() += parent.X_WB.R * a_P;
-    }
+    if (body.parent_interface < 0) continue;
+    const VectorXT<T>& z_dd = ev.flexible[system.bodies[body.parent].flexible].z_dd;
+    s.A += parent_interface(system, body, ev).acceleration(z_dd, s.p_PB);
   }
 }
 
@@ -74,12 +72,11 @@ void project_onto_hinges(const System& system, Evaluation<T>& ev, T* r) {
     if (body.parent < 0) continue;
     BodyMotionT<T>& parent = ev.bodies[body.parent];
     parent.F_joint += shift_wrench(s.F_joint, s.p_PB);
-    if (body.parent_node >= 0) {
-      const FlexibleBody& flexible = system.flexible[system.bodies[body.parent].flexible];
-      const Vector3T<T> f_P = parent.X_WB.R.transpose() * linear(s.F_joint);
-      Eigen::Map<VectorXT<T>>(r + flexible.z_rate_start, flexible.modal.mode_count()) +=
-          flexible.modal.interface_shape(body.parent_node).transpose().lazyProduct(f_P);
-    }
+    if (body.parent_interface < 0) continue;
+    const FlexibleBody& flexible = system.flexible[system.bodies[body.parent].flexible];
+    parent_interface(system, body, ev)
+        .add_load(angular(s.F_joint), linear(s.F_joint), s.p_PB,
+                  Eigen::Map<VectorXT<T>>(r + flexible.z_rate_start, flexible.modal.mode_count()));
   }
 }
 

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "core/dual.h"
+#include "solver/interface.h"
 
 namespace wishbone {
 namespace {
@@ -16,19 +17,22 @@ const BodyMotionT<T>& parent_motion(const TreeBody& body, const Evaluation<T>& e
   return body.parent < 0 ? kInertialFrame<T> : ev.bodies[body.parent];
 }
 
-/// Velocity R_WP delta' of the flexible node under the joint, world axes; zero on a rigid parent.
+// What interfaces of flexible parents take is kept out of line: joints on rigid bodies are the rule.
+
+/// p_PF of a joint on an interface, world axes.
 template <class T>
-Vector3T<T> node_deflection_rate(const System& system, const TreeBody& body, const Matrix3T<T>& R_WP,
-                                 const Evaluation<T>& ev) {
-  if (body.parent_node < 0) return Vector3T<T>::Zero();
-  const int k = system.bodies[body.parent].flexible;
-  return R_WP * ev.flexible[k].modal.interface_delta_dot.col(body.parent_node);
+[[gnu::noinline]] Vector3T<T> point_on_interface(const System& system, const TreeBody& body,
+                                                 const Evaluation<T>& ev) {
+  const Interface<T> interface = parent_interface(system, body, ev);
+  if (!body.on_frame) return interface.p_PI();
+  return interface.p_PI() + interface.R_WI() * body.X_PF.p;
 }
 
-/// R_WF.
+/// Velocity against the parent of the interface under the joint, world axes.
 template <class T>
-Matrix3T<T> inboard_axes(const TreeBody& body, const Matrix3T<T>& R_WP) {
-  return body.turned_PF ? Matrix3T<T>(R_WP * body.X_PF.R) : R_WP;
+[[gnu::noinline]] Vector3T<T> velocity_of_interface(const System& system, const TreeBody& body,
+                                                    const Evaluation<T>& ev) {
+  return parent_interface(system, body, ev).v_PI();
 }
 
 /// Columns of H about Bo, world axes: (w, v_Mo + w x p_MB).
@@ -55,7 +59,7 @@ void update_position(const System& system, const TreeBody& body, const Joint& jo
   AcrossJoint<nv, T> across;
   joint.calc_across(t, q, across);
 
-  const Matrix3T<T> R_WF = inboard_axes(body, parent.X_WB.R);
+  const Matrix3T<T> R_WF = inboard_axes(system, body, ev);
   Matrix3T<T> R_WM = R_WF;
   if constexpr (Joint::kRotates) R_WM = R_WF * across.X_FM.R;
   if (body.turned_MB)
@@ -66,14 +70,28 @@ void update_position(const System& system, const TreeBody& body, const Joint& jo
   // p_PB = p_PF + p_FM + p_MB
   s.p_PB = s.p_MB;
   if constexpr (Joint::kTranslates) s.p_PB += R_WF * across.X_FM.p;
-  if (body.parent_node < 0)
+  if (body.parent_interface < 0)
     s.p_PB += parent.X_WB.R * body.X_PF.p;
   else
-    s.p_PB += parent.X_WB.R *
-              ev.flexible[system.bodies[body.parent].flexible].modal.interface_b.col(body.parent_node);
+    s.p_PB += point_on_interface(system, body, ev);
   s.X_WB.p = parent.X_WB.p + s.p_PB;
 
   set_hinge_columns<Joint, T>(R_WF, across.H, s.p_MB, ev.H.data() + body.v_start);
+}
+
+/// What the turning of the interface frame under the joint adds to V and c, which are those of a frame that keeps the axes
+/// of the parent: the joint's motion (w_rel, v_rel of Bo) is seen from the frame.
+template <class T>
+[[gnu::noinline]] void add_turning_of_frame(const System& system, const TreeBody& body,
+                                            const Evaluation<T>& ev, const Vector3T<T>& w_P,
+                                            const Vector3T<T>& w_rel, const Vector3T<T>& v_rel,
+                                            BodyMotionT<T>& s) {
+  const Interface<T> frame = parent_interface(system, body, ev);
+  const Vector3T<T> w_PI = frame.w_PI(), p_IB = s.p_PB - frame.p_PI();
+  const Vector3T<T> alpha = frame.alpha_bias(w_P), alpha_IB = w_PI.cross(w_rel);
+  const Vector3T<T> a = acceleration_by_turning(w_P, w_PI, alpha, p_IB, v_rel);
+  s.V += spatial(w_PI, w_PI.cross(p_IB));
+  s.c += spatial(Vector3T<T>(alpha + alpha_IB), a);
 }
 
 template <class Joint, class T>
@@ -81,9 +99,10 @@ void update_velocity(const System& system, const TreeBody& body, const Joint& jo
                      const T* v, const Evaluation<T>& ev, BodyMotionT<T>& s) {
   const BodyMotionT<T>& parent = parent_motion(body, ev);
 
-  // motion of Bo as seen from the parent: H v, the drift of prescribed motions and turning axes, and the node's velocity
-  Vector3T<T> w_rel = Vector3T<T>::Zero();
-  Vector3T<T> v_rel = node_deflection_rate(system, body, parent.X_WB.R, ev);
+  // motion of Bo as seen from the parent: H v, the drift of prescribed motions and turning axes, and the interface's velocity
+  Vector3T<T> w_rel = Vector3T<T>::Zero(), v_PI = Vector3T<T>::Zero();
+  if (body.parent_interface >= 0) v_PI = velocity_of_interface(system, body, ev);
+  Vector3T<T> v_rel = v_PI;
   for (int i = 0; i < Joint::kNv; ++i) {
     const Vector6T<T>& h = ev.H[body.v_start + i];
     w_rel += angular(h) * v[i];
@@ -93,7 +112,7 @@ void update_velocity(const System& system, const TreeBody& body, const Joint& jo
   if constexpr (Joint::kHasDrift) {
     Vector6T<T> V_drift, A_drift;
     joint.calc_drift(t, q, v, V_drift, A_drift);
-    const Matrix3T<T> R_WF = inboard_axes(body, parent.X_WB.R);
+    const Matrix3T<T> R_WF = inboard_axes(system, body, ev);
     const Vector3T<T> w_drift = R_WF * angular(V_drift);
     w_rel += w_drift;
     v_rel += R_WF * linear(V_drift) + w_drift.cross(s.p_MB);
@@ -113,6 +132,7 @@ void update_velocity(const System& system, const TreeBody& body, const Joint& jo
     s.c.template head<3>() += alpha_drift;
     s.c.template tail<3>() += a_drift;
   }
+  if (body.on_frame) add_turning_of_frame<T>(system, body, ev, w_P, w_rel, v_rel - v_PI, s);
 }
 
 // Of doubles with everything inlined (flatten): this runs in every evaluation, and left to itself the compiler makes half of
@@ -179,19 +199,29 @@ void update_markers(const System& system, Evaluation<T>& ev) {
       continue;
     }
     const BodyMotionT<T>& body = ev.bodies[marker.body];
-    s.R_WM = body.X_WB.R * marker.X_BM.R;
     s.w_WM = angular(body.V);
+    s.v_WM = linear(body.V);
     Vector3T<T> p_BM;
-    if (marker.node < 0) {
+    if (marker.interface < 0) {
+      s.R_WM = body.X_WB.R * marker.X_BM.R;
       p_BM = body.X_WB.R * marker.X_BM.p;
-      s.v_WM = linear(body.V);
     } else {
-      const ModalBodyStateT<T>& modal = ev.flexible[system.bodies[marker.body].flexible].modal;
-      p_BM = body.X_WB.R * modal.interface_b.col(marker.node);
-      s.v_WM = linear(body.V) + body.X_WB.R * modal.interface_delta_dot.col(marker.node);
+      const Interface<T> interface(system, marker.body, marker.interface, ev);
+      p_BM = interface.p_PI();
+      s.v_WM += interface.v_PI();
+      if (marker.on_frame) {
+        const Matrix3T<T> R_WI = interface.R_WI();
+        const Vector3T<T> p_IM = R_WI * marker.X_BM.p, w_BI = interface.w_PI();
+        s.R_WM = R_WI * marker.X_BM.R;
+        p_BM += p_IM;
+        s.w_WM += w_BI;
+        s.v_WM += w_BI.cross(p_IM);
+      } else {
+        s.R_WM = body.X_WB.R * marker.X_BM.R;
+      }
     }
     s.p_WM = body.X_WB.p + p_BM;
-    s.v_WM += s.w_WM.cross(p_BM);
+    s.v_WM += angular(body.V).cross(p_BM);
   }
 }
 
@@ -206,14 +236,16 @@ void update_closure_marker_accelerations(const System& system, Evaluation<T>& ev
     const Vector3T<T> p_BM = ev.markers[i].p_WM - body.X_WB.p;
     s.alpha = angular(body.A);
     s.a = linear(body.A) + s.alpha.cross(p_BM) + w.cross(w.cross(p_BM));
-    if (marker.node >= 0) {
-      const int k = system.bodies[marker.body].flexible;
-      const FlexibleMotionT<T>& flexible = ev.flexible[k];
-      // + R (Psi z'' + 2 w x delta')
-      const Vector3T<T> a_B = system.flexible[k].modal.interface_shape(marker.node) * flexible.z_dd;
-      const Vector3T<T> v_B = flexible.modal.interface_delta_dot.col(marker.node);
-      s.a += body.X_WB.R * a_B + 2.0 * w.cross(body.X_WB.R * v_B);
-    }
+    if (marker.interface < 0) return;
+    // + R Psi z'' + 2 w x R delta', and what turning adds
+    const VectorXT<T>& z_dd = ev.flexible[system.bodies[marker.body].flexible].z_dd;
+    const Interface<T> interface(system, marker.body, marker.interface, ev);
+    s.a += interface.v_Theta(z_dd) + 2.0 * w.cross(interface.v_PI());
+    if (!marker.on_frame) return;
+    const Vector3T<T> alpha = interface.w_Theta(z_dd) + interface.alpha_bias(w);
+    s.alpha += alpha;
+    s.a +=
+        acceleration_by_turning<T>(w, interface.w_PI(), alpha, p_BM - interface.p_PI(), Vector3T<T>::Zero());
   };
   for (const Closure& closure : system.closures)
     for (const MarkerIndex marker : closure.markers) update(marker);

@@ -5,7 +5,7 @@
 namespace wishbone {
 
 /// Poses of all bodies and deflections of the flexible ones, from the root outward:
-///   X_WB = X_WP X_PF X_FM(q) X_MB,  p_WF of a joint on a flexible node follows the node's deflection.
+///   X_WB = X_WP X_PF X_FM(q) X_MB;  of a joint on an interface X_PF = X_PI(z) X_IF follows the deflections.
 template <class T>
 void update_positions(const System& system, double t, const VectorXT<T>& q, Evaluation<T>& ev);
 

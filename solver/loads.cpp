@@ -2,11 +2,12 @@
 
 #include "core/dual.h"
 #include "solver/closures.h"
+#include "solver/interface.h"
 
 namespace wishbone {
 namespace {
 
-/// Adds a wrench at a marker to its body: about Bo, and to the modes when the marker is a node's.
+/// Adds a wrench at a marker to its body: about Bo, and to the modes when the marker is on an interface.
 template <class T>
 void add_wrench(const System& system, MarkerIndex i, const Vector3T<T>& t, const Vector3T<T>& f,
                 Evaluation<T>& ev) {
@@ -16,12 +17,9 @@ void add_wrench(const System& system, MarkerIndex i, const Vector3T<T>& t, const
   const Vector3T<T> p_BM = ev.markers[i].p_WM - body.X_WB.p;
   body.F_applied.template head<3>() += t + p_BM.cross(f);
   body.F_applied.template tail<3>() += f;
-  if (marker.node >= 0) {
-    // Q = sum Psi_i^T f_i, body axes
-    const int k = system.bodies[marker.body].flexible;
-    const Vector3T<T> f_B = body.X_WB.R.transpose() * f;
-    ev.flexible[k].load += system.flexible[k].modal.interface_shape(marker.node).transpose().lazyProduct(f_B);
-  }
+  if (marker.interface < 0) return;
+  const Interface<T> interface(system, marker.body, marker.interface, ev);
+  interface.add_load(t, f, p_BM, ev.flexible[system.bodies[marker.body].flexible].load);
 }
 
 /// Gravity on a body: at Bo, and where that is not the mass centre with its moment, and on the modes.

@@ -122,8 +122,8 @@ void Observer::add_modal_energies(const System& system, int k) {
 }
 
 void Observer::add_interface_forces(const System& system, int k) {
-  const std::vector<int>& node_ids = system.flexible[k].interface_ids;
-  const int n = static_cast<int>(node_ids.size());
+  const std::vector<std::string>& names = system.flexible[k].interface_names;
+  const int n = static_cast<int>(names.size());
   if (n == 0) return;
   const auto part = [k, n](Eigen::Index first_row) {
     return [k, n, first_row, F = Matrix6X(6, n + 1)](const Sample& s, double* out) mutable {
@@ -133,11 +133,11 @@ void Observer::add_interface_forces(const System& system, int k) {
   };
   const std::string path = path_of(system, k);
   add(path + "/interface_force", {n, 3}, "N", kBody,
-      "force of all joints, springs and loads together on each interface node", part(3));
-  signals_.back().lists["nodes"] = texts(node_ids);
+      "force of all joints, springs and loads together on each interface", part(3));
+  signals_.back().lists["nodes"] = names;
   add(path + "/interface_moment", {n, 3}, "N m", kBody,
-      "moment of all joints, springs and loads together on each interface node, about it", part(0));
-  signals_.back().lists["nodes"] = texts(node_ids);
+      "moment of all joints, springs and loads together on each interface, about it", part(0));
+  signals_.back().lists["nodes"] = names;
 }
 
 void Observer::add_recovery(const System& system, const ObserverOptions::Recovery& recovery) {

@@ -1,5 +1,6 @@
 #include "joints/joint_kind.h"
 #include "solver/closures.h"
+#include "solver/interface.h"
 #include "solver/observation.h"
 #include "solver/observer.h"
 #include "solver/reactions.h"
@@ -9,11 +10,6 @@ namespace wishbone {
 using namespace observation;
 
 namespace {
-
-/// World components of the joint's own frame F.
-Matrix3 inboard_rotation(const TreeBody& body, const Workspace& ws) {
-  return body.parent < 0 ? body.X_PF.R : Matrix3(ws.bodies[body.parent].X_WB.R * body.X_PF.R);
-}
 
 struct Units {
   const char* coordinate;
@@ -68,7 +64,8 @@ void Observer::add_tree_joints(const System& system) {
         [i](const Sample& s, double* out) {
           const TreeBody& b = s.system.bodies[i];
           const auto& joint = std::get<PrescribedJoint>(b.joint);
-          const Vector3 axis = (b.first_is_child ? -1.0 : 1.0) * (inboard_rotation(b, s.ws) * joint.axis_F);
+          const Vector3 axis =
+              (b.first_is_child ? -1.0 : 1.0) * (inboard_axes<double>(s.system, b, s.ws) * joint.axis_F);
           const Vector6 F = -tree_joint_reaction(s.system, s.ws, static_cast<int>(i));
           *out = axis.dot(joint.kind == PrescribedJoint::Kind::revolute ? Vector3(angular(F))
                                                                         : Vector3(linear(F)));

@@ -1,14 +1,17 @@
 #pragma once
 
+#include <optional>
+
 #include "solver/evaluation.h"
 
 namespace wishbone {
 
-/// A point of a body: fixed to a rigid one, a node of a flexible one.
+/// A point of a body: fixed to a rigid one, a node of a flexible one, or carried along by a frame of that.
 struct BodyPoint {
   int body = -1;                   ///< index into System::bodies
   Vector3 p_BQ = Vector3::Zero();  ///< body axes, from the mass centre; undeformed on a flexible body [m]
-  int node_id = 0;                 ///< of a flexible body; 0: of a rigid one
+  int node_id = 0;                 ///< of a flexible body; 0: none
+  std::optional<FrameShapes> frame = std::nullopt;  ///< that carries the point of a flexible body
 };
 
 struct PointMotion {

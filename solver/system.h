@@ -30,8 +30,11 @@ struct TreeBody {
   bool floating = false;        ///< on a free joint that the scene does not name
   bool first_is_child = false;  ///< the joint's first-named body is this one, not the parent
   int parent = -1;  ///< index of the inboard body, always smaller than the own index; -1: the inertial frame
-  int parent_node = -1;  ///< interface node of a flexible parent that carries the joint; -1: rigid parent
-  Pose X_PF;  ///< inboard joint frame on the parent (the node's undeformed position on a flexible one)
+  int parent_interface =
+      -1;                 ///< interface of a flexible parent that carries the joint; -1: the body itself does
+  bool on_frame = false;  ///< whether that is a frame, which turns, rather than a node
+  Pose
+      X_PF;  ///< inboard joint frame on the parent, or on its interface (at a node only the rotation is used)
   Pose X_MB;  ///< body frame in the outboard joint frame
   bool turned_PF = false,
        turned_MB = false;  ///< whether these rotations are other than the identity, and so take part
@@ -48,16 +51,18 @@ struct FlexibleBody {
   ModalBody modal;
   int body = 0;                       ///< the tree body it belongs to
   int z_start = 0, z_rate_start = 0;  ///< where z and z' stand in q and v
-  /// Tree joints hang on its nodes, so its modal mass matrix is not the identity.
+  /// Tree joints hang on its interfaces, so its modal mass matrix is not the identity.
   bool carries_joints = false;
-  std::vector<int> interface_ids;  ///< ids of the interface nodes, in the order of the ModalBody
+  std::vector<std::string>
+      interface_names;  ///< numbers of nodes, names of frames, in the order of the ModalBody
 };
 
-/// A marker of the compiled scene: fixed to a body, or to an interface node of a flexible one.
+/// A marker of the compiled scene: fixed to a body, or to an interface of a flexible one.
 struct Marker {
-  int body = -1;  ///< -1: the inertial frame
-  int node = -1;  ///< interface node of a flexible body
-  Pose X_BM;      ///< on the body (for a node only the rotation is used)
+  int body = -1;          ///< -1: the inertial frame
+  int interface = -1;     ///< of a flexible body; -1: the body itself
+  bool on_frame = false;  ///< whether that is a frame, which turns, rather than a node
+  Pose X_BM;              ///< on the body, or on its interface (at a node only the rotation is used)
 };
 
 /// A cut joint between markers, and the bodies that feel its multipliers.

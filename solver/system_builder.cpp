@@ -6,6 +6,17 @@
 #include "core/error.h"
 
 namespace wishbone {
+namespace {
+
+int place_of(int value, const std::vector<int>& values) {
+  return static_cast<int>(std::find(values.begin(), values.end(), value) - values.begin());
+}
+
+void add_once(int value, std::vector<int>& values) {
+  if (place_of(value, values) == static_cast<int>(values.size())) values.push_back(value);
+}
+
+}  // namespace
 
 int SystemBuilder::add_body(std::string name, double mass, const Matrix3& J_B, const Pose& X_WB) {
   BodyEntry entry;
@@ -38,18 +49,47 @@ void SystemBuilder::set_velocity(int body, const Vector3& v_WB, const Vector3& w
   bodies_[body].w_WB_B = w_WB_B;
 }
 
-int SystemBuilder::interface_index(Attachment on) {
-  if (on.body == kGround || on.node_id == 0) return -1;
-  std::vector<int>& ids = bodies_[on.body].interface_ids;
-  const auto found = std::find(ids.begin(), ids.end(), on.node_id);
-  if (found != ids.end()) return static_cast<int>(found - ids.begin());
-  ids.push_back(on.node_id);
-  return static_cast<int>(ids.size()) - 1;
+int SystemBuilder::add_frame(int body, InterfaceFrame frame) {
+  BodyEntry& entry = bodies_[body];
+  entry.frame_origins.push_back(frame_shapes(frame, entry.shapes).origin);
+  entry.frames.push_back(std::move(frame));
+  return static_cast<int>(entry.frames.size()) - 1;
+}
+
+/// Makes what is attached to an interface of the body.
+void SystemBuilder::use(Attachment on) {
+  if (on.body == kGround) return;
+  if (on.frame >= 0)
+    add_once(on.frame, bodies_[on.body].used_frames);
+  else if (on.node_id != 0)
+    add_once(on.node_id, bodies_[on.body].used_nodes);
+}
+
+/// In the order of ModalBody: nodes first.
+int SystemBuilder::interface_index(Attachment on) const {
+  if (on.body == kGround || (on.frame < 0 && on.node_id == 0)) return -1;
+  const BodyEntry& body = bodies_[on.body];
+  if (on.frame < 0) return place_of(on.node_id, body.used_nodes);
+  return static_cast<int>(body.used_nodes.size()) + place_of(on.frame, body.used_frames);
+}
+
+ModalBody SystemBuilder::modal_body(const BodyEntry& entry) const {
+  std::vector<InterfaceFrame> frames;
+  for (const int frame : entry.used_frames) frames.push_back(entry.frames[frame]);
+  return {entry.shapes, entry.used_nodes, frames, entry.terms};
+}
+
+std::vector<std::string> SystemBuilder::interface_names(const BodyEntry& entry) {
+  std::vector<std::string> names;
+  for (const int id : entry.used_nodes) names.push_back(std::to_string(id));
+  for (const int frame : entry.used_frames) names.push_back(entry.frames[frame].name);
+  return names;
 }
 
 Pose SystemBuilder::attachment_pose(Attachment on) const {
   if (on.body == kGround) return {};
   const BodyEntry& body = bodies_[on.body];
+  if (on.frame >= 0) return {body.X_WB.R, body.X_WB * body.frame_origins[on.frame]};
   if (on.node_id == 0) return body.X_WB;
   const int column = body.shapes.node_index(on.node_id);
   return {body.X_WB.R, body.X_WB * Vector3(body.shapes.node_position.col(column))};
@@ -68,13 +108,14 @@ void SystemBuilder::add_joint(std::string name, Attachment parent, int child, co
                       "body '" + body.name + "'",
                       "name the flexible body first (as the parent) or cut the joint"});
   body.joint = static_cast<int>(joints_.size());
-  joints_.push_back({std::move(name), parent, interface_index(parent), child, p_W, std::move(joint),
-                     std::move(initial), first_is_child});
+  use(parent);
+  joints_.push_back(
+      {std::move(name), parent, child, p_W, std::move(joint), std::move(initial), first_is_child});
 }
 
 MarkerIndex SystemBuilder::add_marker(Attachment on, const Vector3& p_W, const Matrix3& R_WM) {
-  const Pose X_WB = on.body == kGround ? Pose{} : bodies_[on.body].X_WB;
-  markers_.push_back({on.body, interface_index(on), X_WB.inverse() * Pose{R_WM, p_W}});
+  use(on);
+  markers_.push_back({on, attachment_pose(on).inverse() * Pose{R_WM, p_W}});
   return static_cast<MarkerIndex>(markers_.size()) - 1;
 }
 
@@ -130,7 +171,8 @@ void SystemBuilder::add_tree_body(int entry, System& system, State& state) {
     body.joint_name = joint.name;
     body.joint = joint.joint;
     body.parent = joint.parent.body == kGround ? -1 : order_of_[joint.parent.body];
-    body.parent_node = joint.node;
+    body.parent_interface = interface_index(joint.parent);
+    body.on_frame = joint.parent.frame >= 0;
     body.first_is_child = joint.first_is_child;
   }
   body.nq = coordinate_count(body.joint);
@@ -140,10 +182,9 @@ void SystemBuilder::add_tree_body(int entry, System& system, State& state) {
   std::visit([&](const auto& joint) { joint.set_neutral(q.data()); }, body.joint);
 
   if (std::holds_alternative<FreeJoint>(body.joint)) {
-    // F is the frame of the parent or of its node, M the body frame: the coordinates are the pose itself
+    // F is the frame of the parent or of its interface, M the body frame: the coordinates are the pose itself
     const Attachment parent = source.joint < 0 ? Attachment{} : joints_[source.joint].parent;
     const Pose X_WF = attachment_pose(parent);
-    if (parent.body != kGround) body.X_PF = bodies_[parent.body].X_WB.inverse() * X_WF;
     const Pose X_FB = X_WF.inverse() * source.X_WB;
     const Quaternion Q_FB(X_FB.R);
     q << Q_FB.w(), Q_FB.x(), Q_FB.y(), Q_FB.z(), X_FB.p;
@@ -151,7 +192,7 @@ void SystemBuilder::add_tree_body(int entry, System& system, State& state) {
   } else {
     // F and M stand at the joint with the second-named body's axes
     const JointEntry& joint = joints_[source.joint];
-    const Pose X_WP = joint.parent.body == kGround ? Pose{} : bodies_[joint.parent.body].X_WB;
+    const Pose X_WP = attachment_pose(joint.parent);
     const Pose X_WF{joint.first_is_child ? X_WP.R : source.X_WB.R, joint.p_W};
     body.X_PF = X_WP.inverse() * X_WF;
     body.X_MB = X_WF.inverse() * source.X_WB;
@@ -174,24 +215,28 @@ void SystemBuilder::add_tree_body(int entry, System& system, State& state) {
   system.nv += body.nv;
   if (source.flexible) {
     body.flexible = static_cast<int>(system.flexible.size());
-    FlexibleBody flexible{ModalBody(source.shapes, source.interface_ids, source.terms),
-                          static_cast<int>(system.bodies.size()),
-                          system.nq,
-                          system.nv,
-                          false,
-                          source.interface_ids};
+    FlexibleBody flexible{
+        modal_body(source),     static_cast<int>(system.bodies.size()), system.nq, system.nv, false,
+        interface_names(source)};
     const int m = flexible.modal.mode_count();
     system.nq += m;
     system.nv += m;
     system.flexible.push_back(std::move(flexible));
   }
-  if (body.parent_node >= 0) system.flexible[system.bodies[body.parent].flexible].carries_joints = true;
+  if (body.parent_interface >= 0) system.flexible[system.bodies[body.parent].flexible].carries_joints = true;
 
   state.q.conservativeResizeLike(VectorX::Zero(system.nq));
   state.v.conservativeResizeLike(VectorX::Zero(system.nv));
   state.q.segment(body.q_start, body.nq) = q;
   state.v.segment(body.v_start, body.nv) = v;
   system.bodies.push_back(std::move(body));
+}
+
+void SystemBuilder::add_markers(System& system) const {
+  for (const MarkerEntry& entry : markers_) {
+    const int body = entry.on.body == kGround ? kGround : order_of_[entry.on.body];
+    system.markers.push_back({body, interface_index(entry.on), entry.on.frame >= 0, entry.X_BM});
+  }
 }
 
 void SystemBuilder::find_paths(System& system) const {
@@ -214,9 +259,7 @@ std::pair<System, State> SystemBuilder::build() && {
   system.gravity = gravity;
   for (const int entry : order) add_tree_body(entry, system, state);
 
-  system.markers = std::move(markers_);
-  for (Marker& marker : system.markers)
-    if (marker.body != kGround) marker.body = order_of_[marker.body];
+  add_markers(system);
 
   system.closures = std::move(closures_);
   for (Closure& closure : system.closures) {

@@ -5,15 +5,17 @@
 #include <utility>
 #include <vector>
 
+#include "bodies/interface_frame.h"
 #include "bodies/mode_set.h"
 #include "solver/system.h"
 
 namespace wishbone {
 
-/// Where something is attached: a body, or one node of a flexible body. Body -1 is the inertial frame.
+/// Where something is attached: a body, or one node or frame of a flexible body. Body -1 is the inertial frame.
 struct Attachment {
   int body = -1;
-  int node_id = 0;  ///< id in the body's ModeSet; 0: the body itself
+  int node_id = 0;  ///< id in the body's ModeSet; 0: no node
+  int frame = -1;   ///< of the body's frames, as SystemBuilder::add_frame numbers them; -1: none
 };
 
 /// Puts a System together from bodies in their design pose. Joints, markers and cut joints are given where they are in that
@@ -32,6 +34,11 @@ class SystemBuilder {
   /// @throws InputError if the modes are not valid (ModeSet::validate)
   int add_flexible_body(std::string name, const ModeSet& modes, const Pose& X_WB,
                         InertiaTerms terms = InertiaTerms::consistent);
+
+  /// A frame over several nodes of a flexible body, where joints and forces may take hold that turn it; returns its number
+  /// for Attachment::frame, from 0 for each body. Frames that nothing is attached to cost nothing.
+  /// @throws InputError as frame_shapes does
+  int add_frame(int body, InterfaceFrame frame);
 
   /// Initial velocity of a floating body: v_WBo inertial components [m/s], w_WB body components [rad/s].
   void set_velocity(int body, const Vector3& v_WB, const Vector3& w_WB_B);
@@ -62,9 +69,10 @@ class SystemBuilder {
   /// Has a coordinate between two markers recorded.
   void measure(MeasuredCoordinate coordinate) { measured_.push_back(std::move(coordinate)); }
 
-  /// Marker at p_W with axes R_WM in the design pose; on a node, at the node.
+  /// Marker at p_W with axes R_WM in the design pose; on a node, at the node, with the axes of the body; on a frame carried
+  /// along with it.
   MarkerIndex add_marker(Attachment on, const Vector3& p_W, const Matrix3& R_WM = Matrix3::Identity());
-  /// Marker at an attachment's own origin (mass centre, or node) with the body's axes.
+  /// Marker at an attachment's own origin (mass centre, node, or centre of a frame) with the body's axes.
   MarkerIndex add_marker(Attachment on);
 
   template <class Force>
@@ -79,7 +87,7 @@ class SystemBuilder {
   }
 
   const Pose& design_pose(int body) const { return bodies_[body].X_WB; }
-  /// Design pose of an attachment: of its body, or the node's position with the body's axes.
+  /// Design pose of an attachment: of its body, or the position of the node or of the frame's centre with the body's axes.
   Pose attachment_pose(Attachment on) const;
 
   /// The compiled system and its initial state (not yet assembled onto the closures).
@@ -98,14 +106,16 @@ class SystemBuilder {
     ShapeSet shapes;  // of a flexible body
     InertiaTerms terms = InertiaTerms::consistent;
     bool flexible = false;
-    std::vector<int> interface_ids;
+    std::vector<InterfaceFrame> frames;
+    std::vector<Vector3> frame_origins;
+    std::vector<int> used_nodes,
+        used_frames;  // ids and numbers, in the order of their first use: the interfaces
     Vector3 v_WB = Vector3::Zero(), w_WB_B = Vector3::Zero();
     int joint = -1;  // index in joints_
   };
   struct JointEntry {
     std::string name;
     Attachment parent;
-    int node = -1;  // interface index
     int child;
     Vector3 p_W;
     TreeJoint joint;
@@ -113,14 +123,24 @@ class SystemBuilder {
     bool first_is_child;
   };
 
-  int interface_index(Attachment on);
+  struct MarkerEntry {
+    Attachment on;
+    Pose X_BM;
+  };
+
+  void use(Attachment on);
+  int interface_index(Attachment on) const;
+  /// Of ModalBody's interfaces: numbers of nodes, names of frames.
+  static std::vector<std::string> interface_names(const BodyEntry& entry);
+  ModalBody modal_body(const BodyEntry& entry) const;
+  void add_markers(System& system) const;
   std::vector<int> topological_order() const;
   void add_tree_body(int entry, System& system, State& state);
   void find_paths(System& system) const;
 
   std::vector<BodyEntry> bodies_;
   std::vector<JointEntry> joints_;
-  std::vector<Marker> markers_;
+  std::vector<MarkerEntry> markers_;
   std::vector<Closure> closures_;
   ForceElements forces_;
   std::vector<MotionSignal> signals_;

@@ -17,11 +17,11 @@ struct ArticulatedBody {
 
 /// Modal coordinates of one flexible body while they are condensed.
 struct CondensedModes {
-  /// Modal mass: identity plus what hangs on the nodes; then its Cholesky factor (lower triangle). Empty when no joint
-  /// hangs on the nodes.
+  /// Modal mass: identity plus what hangs on the interfaces; then its Cholesky factor (lower triangle). Empty when no
+  /// joint hangs on them.
   MatrixX M_zz;
   MatrixX Y;       ///< L_z^-1 M_zr, m x 6
-  Matrix3X P_Psi;  ///< scratch: a child's P+ times the shapes of its node
+  Matrix3X P_Psi;  ///< scratch: three rows of a child's P+ times the shapes of its interface
 };
 
 /// Factor of D M^-1 D^T = U^T U for the rows that are solved for.

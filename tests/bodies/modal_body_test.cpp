@@ -508,7 +508,7 @@ TEST(ModalBody, InNodalFormConservesEnergyAndMomentaInFreeFlight) {
 }
 
 TEST(ModalBody, WithTheTermsOfTheSourceLosesAngularMomentum) {
-  const ModalBody body(chassis().lowest(10), {}, InertiaTerms::source);
+  const ModalBody body(chassis().lowest(10), {}, {}, InertiaTerms::source);
   FreeFlight flight(body);
   const FreeFlight::Balance start = flight.balance();
   flight.fly(0.1, 300);

@@ -351,15 +351,64 @@ constexpr Broken kCatalogue[] = {
         "  name another node, or correct or remove 'at'"},
     Broken{"FlexibleHeldBesideItsNodes", "{body: beam, node: 1}]", "beam], at: [0, 5, 0]",
            "scene.yaml:24:44: joints.hold.bodies[2]: error: the flexible body 'beam' can be held at its "
-           "nodes only (got 'beam')\n"
-           "  write {body: beam, node: ...}"},
+           "nodes and frames only (got 'beam')\n"
+           "  write {body: beam, node: ...} or {body: beam, frame: ...}"},
     Broken{"FlexibleHeldByRevolute", "type: spherical,", "type: revolute, axis: [0, 0, 1],",
            "scene.yaml:24:60: joints.hold.bodies[2]: error: a node of a flexible body can only be held by a "
            "spherical joint\n"
-           "  use 'type: spherical'"},
+           "  use 'type: spherical', or hold a frame over several nodes"},
     Broken{"FreeJointAtNode", "type: spherical,", "type: free,",
            "scene.yaml:24:39: joints.hold.bodies[2]: error: a free joint joins whole bodies\n"
-           "  name the body without a node"},
+           "  name the body without a node or frame"},
+    Broken{
+        "FrameWithAnUnknownNode", "damping: 1 %", "damping: 1 %\n      frames: {tip: {nodes: [9, 10, 13]}}",
+        "scene.yaml:21:38: bodies.beam.flexible.frames.tip.nodes[3]: error: the body has no such node (got "
+        "'13')\n"
+        "  its nodes are 1 to 12"},
+    Broken{"FrameOverTwoNodes", "damping: 1 %", "damping: 1 %\n      frames: {tip: {nodes: [9, 10]}}",
+           "scene.yaml:21:30: bodies.beam.flexible.frames.tip.nodes: frame 'tip': error: a frame needs at "
+           "least three nodes (got '2')\n"
+           "  name more nodes, or hold the body at a node"},
+    Broken{
+        "FrameOverALine", "damping: 1 %", "damping: 1 %\n      frames: {tip: {nodes: [9, 1, 5]}}",
+        "scene.yaml:21:30: bodies.beam.flexible.frames.tip.nodes: frame 'tip': error: the nodes of a frame "
+        "must not lie on one line (got 'nodes 9, 1, 5')\n"
+        "  add a node beside the line, or the frame could not follow turns about it"},
+    Broken{
+        "FrameWithANodeTwice", "damping: 1 %", "damping: 1 %\n      frames: {tip: {nodes: [9, 10, 9]}}",
+        "scene.yaml:21:38: bodies.beam.flexible.frames.tip.nodes[3]: error: the frame has this node already "
+        "(got '9')\n"
+        "  name each node once; weights let some count more"},
+    Broken{
+        "FrameWithTooFewWeights", "damping: 1 %",
+        "damping: 1 %\n      frames: {tip: {nodes: [9, 10, 11], weights: [1, 2]}}",
+        "scene.yaml:21:52: bodies.beam.flexible.frames.tip.weights: error: there are 2 weights for 3 nodes\n"
+        "  give one weight per node, or leave them out for equal ones"},
+    Broken{"FrameWithAWeightOfZero", "damping: 1 %",
+           "damping: 1 %\n      frames: {tip: {nodes: [9, 10, 11], weights: [1, 0, 1]}}",
+           "scene.yaml:21:56: bodies.beam.flexible.frames.tip.weights[2]: error: the ratio must be positive "
+           "(got '0')\n"
+           "  give a value above zero"},
+    Broken{"FrameWithoutNodes", "damping: 1 %", "damping: 1 %\n      frames: {tip: {}}",
+           "scene.yaml:21:21: bodies.beam.flexible.frames.tip: error: the key 'nodes' is missing\n"
+           "  add it"},
+    Broken{"UnknownFrame", "      damping: 1 %\njoints:\n",
+           "      damping: 1 %\n      frames: {tip: {nodes: [9, 10, 11]}}\njoints:\n"
+           "  grip: {type: revolute, bodies: [ground, {body: beam, frame: top}], axis: [0, 0, 1]}\n",
+           "scene.yaml:23:63: joints.grip.bodies[2].frame: error: there is no 'top' among the frames of "
+           "'beam'\n"
+           "  did you mean 'tip'?"},
+    Broken{"FrameOfABodyWithoutFrames", "{body: beam, node: 1}", "{body: beam, frame: tip}",
+           "scene.yaml:24:64: joints.hold.bodies[2].frame: error: the body 'beam' has no frames (got 'tip')\n"
+           "  describe it under 'frames' of its 'flexible'"},
+    Broken{"JointAtNodeAndFrame", "{body: beam, node: 1}", "{body: beam, node: 1, frame: tip}",
+           "scene.yaml:24:44: joints.hold.bodies[2]: error: the joint is given a node and a frame\n"
+           "  remove one of them"},
+    Broken{"FreeJointOnAFrame", "      damping: 1 %\njoints:\n",
+           "      damping: 1 %\n      frames: {tip: {nodes: [9, 10, 11]}}\njoints:\n"
+           "  grip: {type: free, bodies: [ground, {body: beam, frame: tip}]}\n",
+           "scene.yaml:23:39: joints.grip.bodies[2]: error: a free joint joins whole bodies\n"
+           "  name the body without a node or frame"},
     Broken{"SpringOfZeroLength", "to: {body: wheel}", "to: {ground: [1, 0, 0]}",
            "scene.yaml:26:3: springs.coil: error: the spring has zero length in the design pose, so its "
            "force has no direction\n"
@@ -373,10 +422,13 @@ constexpr Broken kCatalogue[] = {
     Broken{"SpringOnGroundAndBody", "to: {body: wheel}", "to: {ground: [0, 0, 0], body: wheel}",
            "scene.yaml:26:29: springs.coil.to: error: a point is on the ground or on a body\n"
            "  write {ground: [x, y, z]} or {body: ..., at: [x, y, z]}"},
-    Broken{
-        "SpringBesideTheNodes", "to: {body: wheel}", "to: {body: beam, at: [0, 5, 0]}",
-        "scene.yaml:26:29: springs.coil.to: error: the flexible body 'beam' can be held at its nodes only\n"
-        "  name one with 'node'"},
+    Broken{"SpringBesideTheNodes", "to: {body: wheel}", "to: {body: beam, at: [0, 5, 0]}",
+           "scene.yaml:26:29: springs.coil.to: error: the flexible body 'beam' can be held at its nodes and "
+           "frames only\n"
+           "  name one with 'node' or 'frame'"},
+    Broken{"SpringAtNodeAndFrame", "to: {body: wheel}", "to: {body: beam, node: 1, frame: tip}",
+           "scene.yaml:26:29: springs.coil.to: error: the point is named twice, by 'frame' and by 'node'\n"
+           "  remove one of them"},
     Broken{"NegativeStiffness", "stiffness: 2 kN/m", "stiffness: -2 kN/m",
            "scene.yaml:26:59: springs.coil.stiffness: error: the stiffness must not be negative (got '-2 "
            "kN/m')\n"
@@ -530,6 +582,23 @@ joints:
   EXPECT_EQ(files.relative(message_of<InputError>([&] { load_scene(file); })),
             "scene.yaml:4:3: bodies.boat: error: the velocity of the body follows from the joint 'tow'\n"
             "  remove 'velocity' and 'angular_velocity'; give the joint a 'speed' if it moves");
+}
+
+// A joint whose frames do not share their centre has no place of its own.
+TEST(BrokenScene, JointBetweenFramesApartNeedsAPlace) {
+  const TextFiles files;
+  const std::string beam =
+      "{block: {size: [1, 0.1, 0.1], elements: [1, 1, 1]}, material: {young: 1e9, poisson: 0.3, density: "
+      "1000}, "
+      "modes: 1, frames: {start: {nodes: [1, 2, 3, 4]}, end: {nodes: [5, 6, 7, 8]}}}";
+  const auto file = files.write(
+      "scene.yaml", "wishbone: 1\nbodies:\n  a: {form: modal, position: [0, 0, 0], flexible: " + beam +
+                        "}\n  b: {form: modal, position: [1.5, 0, 0], flexible: " + beam +
+                        "}\njoints:\n  pin: {type: revolute, axis: [0, 0, 1], bodies: "
+                        "[{body: a, frame: end}, {body: b, frame: start}]}\n");
+  EXPECT_EQ(files.relative(message_of<InputError>([&] { load_scene(file); })),
+            "scene.yaml:6:3: joints.pin: error: the frames have their centres at [0.5, 0, 0] and [1, 0, 0]\n"
+            "  say where the joint is with 'at'; the frames carry it");
 }
 
 }  // namespace

@@ -7,12 +7,15 @@
 #include "core/error.h"
 #include "identification/elements/hexahedral_mesh.h"
 #include "identification/formats/matrix_market.h"
+#include "compiled_modes.h"
 #include "models/compile.h"
 #include "models/scene_loader.h"
 #include "text_files.h"
 
 namespace wishbone {
 namespace {
+
+using testing::compiled_modes;
 
 const HexahedralMesh kMesh = make_block({1, 0.1, 0.2}, {3, 1, 2});
 constexpr IsotropicMaterial kMaterial{210e6, 0.3, 2600};
@@ -70,7 +73,7 @@ bodies:
       )" + source + "\n      modes: " + modes + "\n"));
   }
   ModeSet modes(const std::string& source) const {
-    return compile(load(source)).system.flexible.at(0).modal.modes();
+    return compiled_modes(compile(load(source)));
   }
   ModeSet block_modes() const {
     return modes(fmt::format("block: {{size: [1, 0.1, 0.2], elements: [3, 1, 2]}}\n      material: {}",
@@ -113,13 +116,10 @@ TEST_F(FlexibleSources, AreListedAmongTheFilesOfTheScene) {
 TEST_F(FlexibleSources, ServeAsTheModelOfAnIdentification) {
   const Scene scene = load("model: {nodes: nodes.csv, stiffness: K.mtx, mass: M.mtx}",
                            "{measured: {from: model, modes: 20}}");
-  const ModeSet set = compile(scene).system.flexible.at(0).modal.modes();
+  const ModeSet set = compiled_modes(compile(scene));
   EXPECT_EQ(set.mode_count(), 20);
   EXPECT_LE(
-      (set.omega.head(12) - compile(load("model: {nodes: nodes.csv, stiffness: K.mtx, mass: M.mtx}", "12"))
-                                .system.flexible.at(0)
-                                .modal.modes()
-                                .omega)
+      (set.omega.head(12) - compiled_modes(compile(load("model: {nodes: nodes.csv, stiffness: K.mtx, mass: M.mtx}", "12"))).omega)
           .norm(),
       1e-8 * set.omega.norm());
 }

@@ -45,7 +45,8 @@ TEST(PointOutput, OfAClosedLoopFallsAsItsJointsLetIt) {
   }
 }
 
-TEST(PointOutput, OfAFlexibleBodyFollowsItsNode) {
+/// Whether velocity and acceleration of the point "end" are the derivatives of its position, of a beam that bends.
+void expect_consistent_motion_of_the_end(const std::string& end) {
   const RanScene run(R"(
 wishbone: 1
 gravity: [0, 0, 0]
@@ -54,13 +55,12 @@ bodies:
     form: modal
     position: [0, 0, 0]
     angular_velocity: [0, 2, 5]
-    flexible: {block: {size: [1, 0.05, 0.05], elements: [4, 1, 1]}, material: {young: 1e8, poisson: 0.3, density: 1000}, modes: 6}
+    flexible: {block: {size: [1, 0.05, 0.05], elements: [4, 1, 1]}, material: {young: 1e8, poisson: 0.3, density: 1000}, modes: 6, frames: {face: {nodes: [1, 2, 3, 4]}}}
 loads:
-  pluck: {body: beam, node: 1, force: [0, {expression: 20*sin(60*t)}, 30]
-}
+  pluck: {body: beam, node: 1, force: [0, {expression: 20*sin(60*t)}, 30]}
 analysis: {duration: 0.1 s, rtol: 1e-9, atol: 1e-11}
-output: {interval: 0.0001 s, nodes: {beam: [1]}, points: {end: {body: beam, node: 1}}}
-)");
+output: {interval: 0.0001 s, nodes: {beam: [1]}, points: {end: )" +
+                     end + "}}\n");
   const MatrixX p = run.read("/points/end/position"), v = run.read("/points/end/velocity"),
                 a = run.read("/points/end/acceleration");
   ASSERT_GT(run.read("/flexible/beam/deflection").cwiseAbs().maxCoeff(), 1e-4) << "it bends [m]";
@@ -69,6 +69,33 @@ output: {interval: 0.0001 s, nodes: {beam: [1]}, points: {end: {body: beam, node
     EXPECT_LT((v.row(i) - (p.row(i + 1) - p.row(i - 1)) / 0.0002).norm(), 1e-4 * v_scale) << i;
     EXPECT_LT((a.row(i) - (v.row(i + 1) - v.row(i - 1)) / 0.0002).norm(), 1e-3 * a_scale) << i;
   }
+}
+
+TEST(PointOutput, OfAFlexibleBodyFollowsItsNode) {
+  expect_consistent_motion_of_the_end("{body: beam, node: 1}");
+}
+
+TEST(PointOutput, OfAFrameTurnsWithIt) {
+  expect_consistent_motion_of_the_end("{body: beam, frame: face, at: [-0.8, 0.1, 0.2]}");
+}
+
+TEST(PointOutput, OfAFrameIsWhereAJointOnItHoldsIt) {
+  const RanScene run(R"(
+wishbone: 1
+bodies:
+  beam:
+    form: modal
+    position: [0, 0, 0]
+    flexible: {block: {size: [1, 0.05, 0.05], elements: [4, 1, 1]}, material: {young: 1e8, poisson: 0.3, density: 1000}, modes: 6, frames: {face: {nodes: [1, 2, 3, 4]}}}
+joints:
+  pin: {type: revolute, bodies: [ground, {body: beam, frame: face}], at: [-0.6, 0.1, 0.2], axis: [0, 1, 0]}
+analysis: {duration: 0.3 s, rtol: 1e-9, atol: 1e-11}
+output: {interval: 0.1 s, nodes: {beam: [20]}, points: {pin: {body: beam, frame: face, at: [-0.6, 0.1, 0.2]}}}
+)");
+  ASSERT_GT(run.read("/flexible/beam/deflection").cwiseAbs().maxCoeff(), 1e-3) << "it bends [m]";
+  const MatrixX p = run.read("/points/pin/position");
+  for (Eigen::Index i = 0; i < p.rows(); ++i)
+    EXPECT_LT((p.row(i).transpose() - Vector3(-0.6, 0.1, 0.2)).norm(), 1e-8) << i;
 }
 
 constexpr const char* kDrivenArm = R"(

@@ -123,6 +123,32 @@ TEST_F(SceneText, JointTakesTheNodesPlaceInBothForms) {
   }
 }
 
+TEST_F(SceneText, JointOnAFrameStandsAtItsCentreUnlessItSaysOtherwise) {
+  for (const char* form : {"rigid", "modal"}) {
+    const Scene scene =
+        load(std::string("bodies:\n  beam:\n    form: ") + form +
+             "\n    mass: 1\n    inertia: [1, 1, 1]\n    position: [0, 0, 1]\n"
+             "    orientation: {axis: [0, 0, 1], angle: 90 deg}\n"
+             "    flexible: {block: {size: [2, 0.2, 0.4], elements: [2, 1, 1]}, "
+             "material: {young: 1 GPa, poisson: 0.3, density: 1000}, modes: 3, "
+             "frames: {end: {nodes: [1, 2, 3, 4], weights: [1, 3, 3, 1]}}}\n"
+             "joints:\n"
+             "  centred: {type: fixed, bodies: [ground, {body: beam, frame: end}]}\n"
+             "  carried: {type: fixed, bodies: [{body: beam, frame: end}, ground], at: [0.3, -1.2, 1]}\n"
+             "springs: {pull: {from: {ground: [3, 3, 3]}, to: {body: beam, frame: end, at: [1, 0, 0]}, "
+             "stiffness: 1, "
+             "free_length: 1}}\n");
+    // the end is at x = -1 of the block, its heavy side at y = +0.1, which are y = -1 and x = -0.1 in D
+    EXPECT_LT((scene.joints[0].second.p_DP - Vector3(-0.05, -1, 1)).norm(), 1e-15);
+    EXPECT_LT((scene.joints[0].first.p_DP - Vector3(-0.05, -1, 1)).norm(), 1e-15);
+    EXPECT_EQ(scene.joints[0].second.frame, 0);
+    EXPECT_EQ(scene.joints[1].first.p_DP, Vector3(0.3, -1.2, 1));
+    EXPECT_EQ(scene.springs[0].to.frame, 0);
+    EXPECT_EQ(scene.springs[0].to.p_DP, Vector3(1, 0, 0));
+    EXPECT_EQ(scene.springs[0].from.frame, -1);
+  }
+}
+
 TEST_F(SceneText, LongChainsLoad) {
   std::string text = "bodies:\n";
   for (int i = 0; i < 500; ++i) {

@@ -46,6 +46,25 @@ Pair add_pair(Assembly& a, const std::string& name) {
   return pair;
 }
 
+/// A floating flexible block with the frame "end" over its last section; the frame is given as its attachment.
+Attachment add_block(Assembly& a, const std::string& name, const Pose& X_WB) {
+  static const ModeSet modes = block_modes(2);
+  const int block = a.b.add_flexible_body(name, modes, X_WB);
+  a.b.set_velocity(block, a.random.vector(1), a.random.vector(1));
+  return {block, 0, a.b.add_frame(block, {"end", {13, 14, 15, 16}, {1, 2, 3, 0.5}})};
+}
+
+/// The same on frames of two flexible blocks.
+Pair add_pair_of_frames(Assembly& a, const std::string& name) {
+  const Attachment base = add_block(a, name + " base", {a.random.rotation(), a.random.vector(0.5)});
+  const Vector3 p_W = a.b.attachment_pose(base).p + a.random.vector(0.3);
+  const Matrix3 R_WM = a.random.rotation();
+  const Matrix3 R_WB = a.random.rotation();
+  const Attachment other = add_block(a, name + " other", {R_WB, p_W - R_WB * Vector3(0.6, 0, 0)});
+  return {base.body, other.body, a.b.add_marker(base, p_W, R_WM),
+          a.b.add_marker(other, p_W + R_WM * Vector3(0.3, -0.6, 0.5), turned_a_little(R_WM, a.random))};
+}
+
 using Part = std::function<void(Assembly&, const std::string& name)>;
 struct NamedPart {
   std::string name;
@@ -65,6 +84,14 @@ std::vector<NamedPart> tree_joint_parts() {
                                         {a.random.rotation(), a.random.vector(1)});
                        a.b.add_joint(name, {base}, child, a.random.vector(1), joint);
                      }});
+  for (const TreeJoint& joint : every_tree_joint(axis, normal))
+    parts.push_back(
+        {std::string("tree joint on a frame, ") + joint_kind(joint), [joint](Assembly& a, const auto& name) {
+           const Attachment end = add_block(a, name + " base", {a.random.rotation(), a.random.vector(0.5)});
+           const int child = a.b.add_body(name + " child", a.random.uniform(1, 3), a.random.inertia(1),
+                                          {a.random.rotation(), a.random.vector(1)});
+           a.b.add_joint(name, end, child, a.random.vector(1), joint);
+         }});
   return parts;
 }
 
@@ -75,6 +102,12 @@ std::vector<NamedPart> cut_joint_parts() {
                        const Pair pair = add_pair(a, name);
                        a.b.add_closure(name, pair.A, pair.B, joint);
                      }});
+  for (const CutJoint& joint : every_cut_joint())
+    parts.push_back(
+        {std::string("cut joint on frames, ") + joint_kind(joint), [joint](Assembly& a, const auto& name) {
+           const Pair pair = add_pair_of_frames(a, name);
+           a.b.add_closure(name, pair.A, pair.B, joint);
+         }});
   parts.push_back({"coupling", [](Assembly& a, const auto& name) {
                      const CutJoint coupling = coupling_of_every_gauge();
                      std::vector<MarkerIndex> markers;
@@ -204,6 +237,15 @@ std::vector<NamedPart> force_parts() {
       between("follower load", [](const auto& n, auto A, auto) {
         return AppliedLoad(n, A, {Vector3(1, -2, 3), Vector3(5, 4, -3)}, LoadAxes::kMarker);
       })};
+  parts.push_back({"joint spring on frames", [](Assembly& a, const auto& name) {
+                     const Pair pair = add_pair_of_frames(a, name);
+                     a.b.add_force(JointSpring(name, pair.A, pair.B, {Gauge::Kind::rotation}, 20, 3, 0.5));
+                   }});
+  parts.push_back(
+      {"follower load on a frame", [](Assembly& a, const auto& name) {
+         const MarkerIndex marker = add_pair_of_frames(a, name).A;
+         a.b.add_force(AppliedLoad(name, marker, {Vector3(1, -2, 3), Vector3(5, 4, -3)}, LoadAxes::kMarker));
+       }});
   add_joint_force_parts(parts);
   add_function_parts(parts);
   parts.push_back(tire_part("smooth tire", UaForm::kSmooth, false));

@@ -13,11 +13,12 @@ struct NamedMechanism {
   Built mechanism;
 };
 
-/// A floating body that carries another on the joint: every tree joint, from both sides. All states are far from the design
+/// A floating body that carries another on the joint, rigidly and on a frame of a flexible one: every tree joint, from both
+/// sides. All states are far from the design
 /// pose and moving.
 std::vector<NamedMechanism> around_every_tree_joint();
 
-/// Floating bodies between which the closure stands open: every cut joint, and a coupling of every gauge.
+/// Floating bodies between which the closure stands open, rigid ones and frames of flexible ones: every cut joint, and a coupling of every gauge.
 std::vector<NamedMechanism> around_every_cut_joint();
 
 /// Floating bodies with the force element between them: every force, with every gauge, load axes and form of function.

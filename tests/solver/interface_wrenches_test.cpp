@@ -109,7 +109,7 @@ TEST(InterfaceWrenches, OfASpringALoadAndAJointAreTheirForces) {
   const Workspace ws = solved(m);
   const Matrix6X F = interface_wrenches(m, 0, ws);
 
-  ASSERT_EQ(m.system.flexible[0].interface_ids, (std::vector<int>{16, 3, 5}));
+  ASSERT_EQ(m.system.flexible[0].interface_names, (std::vector<std::string>{"16", "3", "5"}));
   const Matrix3 R_BW = X_WB.R.transpose();
   EXPECT_LT((F.col(0) - spatial(Vector3::Zero(), R_BW * Vector3(0, 0, 100 * 0.5))).norm(), 1e-11);
   EXPECT_LT((F.col(1) - spatial(R_BW * load.t, R_BW * load.f)).norm(), 1e-13);

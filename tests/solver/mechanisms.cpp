@@ -1,5 +1,6 @@
 #include "solver/mechanisms.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "solver/articulated_body.h"
@@ -46,6 +47,22 @@ struct RandomBuilder {
   std::vector<Attachment> attachments;  // bodies, nodes and the ground, where anything may take hold
 };
 
+/// Two frames of the block, and a body on each: on a joint with speeds, and on one whose motion is prescribed.
+void add_frames(RandomBuilder& r, int block, Random& random) {
+  SystemBuilder& b = r.builder;
+  const int end = b.add_frame(block, {"end", {13, 14, 15, 16}, {1, 2, 3, 0.5}});
+  const int middle = b.add_frame(block, {"middle", {5, 6, 11}, {}});
+  for (const int frame : {end, middle}) {
+    const int body = b.add_body("body on a frame", random.uniform(1, 20), random.inertia(3),
+                                {random.rotation(), random.vector(2)});
+    b.add_joint("joint on a frame", {block, 0, frame}, body, random.vector(2),
+                random_joint(frame == end ? 1 : 5, random));
+    r.attachments.push_back({body});
+  }
+  r.attachments.push_back({block, 0, end});
+  r.attachments.push_back({block, 0, middle});
+}
+
 RandomBuilder random_bodies(Random& random) {
   RandomBuilder r;
   SystemBuilder& b = r.builder;
@@ -69,6 +86,7 @@ RandomBuilder random_bodies(Random& random) {
     bodies.push_back(body);
     r.attachments.push_back({body});
   }
+  add_frames(r, block, random);
   return r;
 }
 
@@ -155,6 +173,33 @@ double energy_balance(const System& system, const State& state, const Work& work
   return e.kinetic + e.gravity + e.elastic + work.loss - work.input;
 }
 
+double drift(const Built& m, const Trajectory& run) {
+  const double E0 = energy_balance(m.system, run.states.front(), run.work.front());
+  const Vector6 h0 = momentum(m.system, run.states.front());
+  double largest = 0;
+  for (std::size_t i = 0; i < run.states.size(); ++i) {
+    const Vector6 h = momentum(m.system, run.states[i]);
+    largest = std::max({largest, std::abs(energy_balance(m.system, run.states[i], run.work[i]) / E0 - 1),
+                        (h - h0).head<3>().norm() / h0.head<3>().norm(),
+                        (h - h0).tail<3>().norm() / h0.tail<3>().norm()});
+  }
+  return largest;
+}
+
+double distance(const Built& a, const State& sa, const Built& b, const State& sb) {
+  Workspace wa(a.system), wb(b.system);
+  update_state(a.system, sa, wa);
+  update_state(b.system, sb, wb);
+  double largest = 0;
+  for (std::size_t i = 0; i < a.system.bodies.size(); ++i)
+    for (std::size_t j = 0; j < b.system.bodies.size(); ++j) {
+      if (a.system.bodies[i].name != b.system.bodies[j].name) continue;
+      const Pose &A = wa.bodies[i].X_WB, &B = wb.bodies[j].X_WB;
+      largest = std::max({largest, (A.p - B.p).norm(), (A.R - B.R).norm()});
+    }
+  return largest;
+}
+
 Vector6 momentum(const System& system, const State& state) {
   Workspace ws(system);
   update_state(system, state, ws);
@@ -198,6 +243,8 @@ Built random_loops(unsigned seed) {
   r.builder.add_closure("body to body", nth(9), nth(11), RevoluteClosure{});
   r.builder.add_closure("node to node's body", nth(3), nth(12), SphericalClosure{});
   r.builder.add_closure("ground to body", nth(0), nth(13), SphericalClosure{});
+  r.builder.add_closure("frame to body", nth(16), nth(10), FixedClosure{});
+  r.builder.add_closure("ground to frame", nth(0), nth(17), UniversalClosure{});
   add_random_forces(r, random);
   Built m = build(std::move(r.builder));
   randomize(m, random);

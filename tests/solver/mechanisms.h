@@ -48,6 +48,12 @@ double energy_balance(const System& system, const State& state, const Work& work
 /// Momentum of the whole mechanism: linear [kg m/s] below angular about the inertial origin [kg m^2/s].
 Vector6 momentum(const System& system, const State& state);
 
+/// Largest relative change of the energy, the linear and the angular momentum over a run of a free mechanism.
+double drift(const Built& mechanism, const Trajectory& run);
+
+/// Largest difference between the poses of all bodies named alike in two descriptions of one mechanism [m, 1].
+double distance(const Built& a, const State& state_a, const Built& b, const State& state_b);
+
 /// Reproducible random numbers.
 class Random {
  public:
@@ -80,11 +86,11 @@ class Random {
 /// hold the nodes 1-4 (x = -0.6 m), 5-8, 9-12 and 13-16 (x = 0.6 m).
 ModeSet block_modes(int modes, double youngs_modulus = 1e8);
 
-/// A seeded random tree with every tree joint and a motion: rigid bodies on each other, on the ground and on the nodes of a
-/// floating flexible block, with springs between them and loads on them. The state is far from the design pose and moving.
+/// A seeded random tree with every tree joint and a motion: rigid bodies on each other, on the ground and on the nodes and
+/// frames of a floating flexible block, with springs between them and loads on them. The state is far from the design pose and moving.
 Built random_tree(unsigned seed);
 
-/// The same with cut joints of both kinds between random bodies, nodes and the ground, as they stand in the random state.
+/// The same with cut joints of several kinds between random bodies, nodes, frames and the ground, as they stand in the random state.
 Built random_loops(unsigned seed);
 
 /// Crank-rocker in the x-y plane under gravity -y: ground A (0,0) and D (3,0), crank AB 1 m, coupler BC 3 m, rocker DC 2.5 m,
