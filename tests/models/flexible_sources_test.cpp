@@ -4,10 +4,10 @@
 
 #include <fstream>
 
+#include "compiled_modes.h"
 #include "core/error.h"
 #include "identification/elements/hexahedral_mesh.h"
 #include "identification/formats/matrix_market.h"
-#include "compiled_modes.h"
 #include "models/compile.h"
 #include "models/scene_loader.h"
 #include "text_files.h"
@@ -72,9 +72,7 @@ bodies:
     flexible:
       )" + source + "\n      modes: " + modes + "\n"));
   }
-  ModeSet modes(const std::string& source) const {
-    return compiled_modes(compile(load(source)));
-  }
+  ModeSet modes(const std::string& source) const { return compiled_modes(compile(load(source))); }
   ModeSet block_modes() const {
     return modes(fmt::format("block: {{size: [1, 0.1, 0.2], elements: [3, 1, 2]}}\n      material: {}",
                              kMaterialText));
@@ -119,7 +117,8 @@ TEST_F(FlexibleSources, ServeAsTheModelOfAnIdentification) {
   const ModeSet set = compiled_modes(compile(scene));
   EXPECT_EQ(set.mode_count(), 20);
   EXPECT_LE(
-      (set.omega.head(12) - compiled_modes(compile(load("model: {nodes: nodes.csv, stiffness: K.mtx, mass: M.mtx}", "12"))).omega)
+      (set.omega.head(12) -
+       compiled_modes(compile(load("model: {nodes: nodes.csv, stiffness: K.mtx, mass: M.mtx}", "12"))).omega)
           .norm(),
       1e-8 * set.omega.norm());
 }

@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "compiled_modes.h"
 #include "core/error.h"
 #include "identification/formats/mode_file.h"
-#include "compiled_modes.h"
 #include "models/compile.h"
 #include "models/identification_files.h"
 #include "models/plan.h"
@@ -126,9 +126,9 @@ TEST_F(IdentifiedBodies, MustBeFree) {
 }
 
 TEST_F(IdentifiedBodies, MayBeCorrectedModels) {
-  EXPECT_EQ(
-      compiled_modes(compile(load({{kModes, std::string(kModes) + "        find: corrected\n"}}))).mode_count(),
-      30);
+  EXPECT_EQ(compiled_modes(compile(load({{kModes, std::string(kModes) + "        find: corrected\n"}})))
+                .mode_count(),
+            30);
 }
 
 TEST_F(IdentifiedBodies, HaveTheirOriginAtTheMassCentreOfTheChangedStructure) {

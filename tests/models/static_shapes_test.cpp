@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <numbers>
 
-#include "core/error.h"
 #include "compiled_modes.h"
+#include "core/error.h"
 #include "models/interface_nodes.h"
 #include "models/plan.h"
 #include "models/run_scene.h"
@@ -203,7 +203,8 @@ TEST(CarOfFewModes, BendsUnderItsSuspensionAsTheFullOneWithAttachmentModes) {
   const auto error = [&](const ModeSet& set) {
     return (statics(set, nodes) - truth).colwise().norm().maxCoeff() / truth.colwise().norm().maxCoeff();
   };
-  const double ten = error(compiled_modes(compiled({"modes=10"}))), half = error(compiled_modes(compiled({"modes=27"})));
+  const double ten = error(compiled_modes(compiled({"modes=10"}))),
+               half = error(compiled_modes(compiled({"modes=27"})));
   const double corrected = error(compiled_modes(compiled({"modes=10", "correction=interfaces"})));
   EXPECT_LT(half, ten);
   EXPECT_GT(half, 1e-3);
