@@ -90,7 +90,7 @@ TEST_F(CalculixBody, TakesItsNodesFromResultsToo) {
 
 TEST_F(CalculixBody, IsRefusedWithPlaceValueAndRemedy) {
   EXPECT_EQ(message("{calculix: frame}"),
-            "scene.yaml:7:14: bodies.frame.flexible.model: error: a flexible body needs lumped masses, and "
+            "scene.yaml:7:7: bodies.frame.flexible.model: error: a flexible body needs lumped masses, and "
             "this mass "
             "matrix is not lumped\n"
             "  add 'lumping: row_sum' or 'lumping: diagonal' to the model");
