@@ -73,7 +73,7 @@ TEST(NormalModes, AreRefusedOfStructuresThatAreHeldOrHaveLooseParts) {
   AnalyticalModel held = model_of(large_block());
   held.K.coeffRef(0, 0) += 1e9;
   EXPECT_EQ(
-      message_of<InputError>([&] { normal_modes(held, LowestModes{5}); }).substr(0, 110),
+      message_of<InputError>([&] { normal_modes(held, LowestModes{5}); }).substr(0, 109),
       "flexible body: error: the stiffness must resist every motion but the six of a rigid body, and none of "
       "these (");
   const AnalyticalModel model = model_of(chassis());
