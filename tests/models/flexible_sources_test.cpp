@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "compiled_modes.h"
 #include "core/error.h"
 #include "identification/elements/hexahedral_mesh.h"
 #include "identification/formats/matrix_market.h"
@@ -13,6 +14,8 @@
 
 namespace wishbone {
 namespace {
+
+using testing::compiled_modes;
 
 const HexahedralMesh kMesh = make_block({1, 0.1, 0.2}, {3, 1, 2});
 constexpr IsotropicMaterial kMaterial{210e6, 0.3, 2600};
@@ -69,9 +72,7 @@ bodies:
     flexible:
       )" + source + "\n      modes: " + modes + "\n"));
   }
-  ModeSet modes(const std::string& source) const {
-    return compile(load(source)).system.flexible.at(0).modal.modes();
-  }
+  ModeSet modes(const std::string& source) const { return compiled_modes(compile(load(source))); }
   ModeSet block_modes() const {
     return modes(fmt::format("block: {{size: [1, 0.1, 0.2], elements: [3, 1, 2]}}\n      material: {}",
                              kMaterialText));
@@ -113,13 +114,11 @@ TEST_F(FlexibleSources, AreListedAmongTheFilesOfTheScene) {
 TEST_F(FlexibleSources, ServeAsTheModelOfAnIdentification) {
   const Scene scene = load("model: {nodes: nodes.csv, stiffness: K.mtx, mass: M.mtx}",
                            "{measured: {from: model, modes: 20}}");
-  const ModeSet set = compile(scene).system.flexible.at(0).modal.modes();
+  const ModeSet set = compiled_modes(compile(scene));
   EXPECT_EQ(set.mode_count(), 20);
   EXPECT_LE(
-      (set.omega.head(12) - compile(load("model: {nodes: nodes.csv, stiffness: K.mtx, mass: M.mtx}", "12"))
-                                .system.flexible.at(0)
-                                .modal.modes()
-                                .omega)
+      (set.omega.head(12) -
+       compiled_modes(compile(load("model: {nodes: nodes.csv, stiffness: K.mtx, mass: M.mtx}", "12"))).omega)
           .norm(),
       1e-8 * set.omega.norm());
 }
