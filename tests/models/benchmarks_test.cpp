@@ -168,6 +168,19 @@ TEST(AndrewsSqueezer, IsTheSameInEveryForm) {
   }
 }
 
+TEST(AndrewsSqueezer, IsFollowedInIndependentCoordinatesByCoarseSteps) {
+  // the dependent coordinates lie far from those of the stage before
+  const auto beta = [](double tolerance) {
+    return run("andrews_squeezer", {}, 0.03, 0.03, tolerance, {Form::partition, Method::erk})
+        .scalar("/joints/beta/coordinates", 1);
+  };
+  const double expected = 1.581077119515370709712e+01 + 6.171389001427644963589484580e-02;
+  for (const double tolerance : {3e-4, 1e-4, 3e-5})
+    EXPECT_NEAR(beta(tolerance), expected, 20 * tolerance * expected) << tolerance;
+  for (const double tolerance : {1e-2, 1e-3})
+    EXPECT_NEAR(beta(tolerance), expected, 4) << tolerance;  // it arrives
+}
+
 TEST(Bricard, MovesWithoutHelpAlthoughItsRowsAreRedundant) {
   // IFToMM A04: the point P3, joint between bars 3 and 4; closed-form path and quadrature
   const Benchmark r = run("bricard", {}, 10, 1, 1e-11);
