@@ -9,6 +9,7 @@
 #include "identification/methods/attachment_modes.h"
 #include "identification/methods/lowest_modes.h"
 #include "identification/methods/lumping.h"
+#include "compiled_modes.h"
 #include "models/compile.h"
 #include "models/scene_loader.h"
 #include "text_files.h"
@@ -36,8 +37,8 @@ class CalculixBody : public testing::Test {
   TextFiles files_;
 };
 
-const ModeSet& modes_of(const CompiledScene& compiled) {
-  return compiled.system.flexible.at(0).modal.modes();
+ModeSet modes_of(const CompiledScene& compiled) {
+  return compiled_modes(compiled);
 }
 
 TEST_F(CalculixBody, HasTheModesAndTheStaticsOfItsLumpedModel) {
