@@ -224,8 +224,8 @@ std::optional<Scene::FixedAxes> read_axes(const Value& value, const std::vector<
 }  // namespace
 
 Scene::Flexible read_flexible(const Value& value, Scene& scene) {
-  const Mapping keys(value, {"block", "material", "model", "modes", "below", "attachment", "constraint", "damping",
-                             "axes", "inertia"});
+  const Mapping keys(value, {"block", "material", "model", "modes", "below", "attachment", "constraint",
+                             "damping", "axes", "inertia"});
   Scene::Flexible flexible;
   const Value modes = keys.required("modes");
   const bool identified = modes.is_mapping() && !has_any(modes, {"lowest", "below", "list"});

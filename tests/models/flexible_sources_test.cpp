@@ -177,7 +177,7 @@ TEST_F(FlexibleSources, AreRefusedWithPlaceValueAndRemedy) {
             "scene.yaml:7:7: bodies.beam.flexible.model: error: the nodes come either from a block or from "
             "a model\n"
             "  remove one of the two");
-  EXPECT_EQ(message("model: {nodes: nodes.csv, stiffness: M.mtx, mass: M.mtx}").substr(0, 119),
+  EXPECT_EQ(message("model: {nodes: nodes.csv, stiffness: M.mtx, mass: M.mtx}").substr(0, 120),
             "scene.yaml:3:3: bodies.beam: free-free modes: error: the stiffness must not resist rigid-body "
             "motion of a "
             "free body (got");

@@ -3,13 +3,13 @@
 
 #include <fstream>
 
+#include "compiled_modes.h"
 #include "core/error.h"
 #include "identification/calculix/calculix_structure.h"
 #include "identification/formats/calculix_matrices.h"
 #include "identification/methods/attachment_modes.h"
 #include "identification/methods/lowest_modes.h"
 #include "identification/methods/lumping.h"
-#include "compiled_modes.h"
 #include "models/compile.h"
 #include "models/scene_loader.h"
 #include "text_files.h"
