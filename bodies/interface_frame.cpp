@@ -73,7 +73,7 @@ FrameShapes frame_shapes(const InterfaceFrame& frame, const ShapeSet& set) {
   }
   const FrameGeometry g = frame_geometry(frame, position);
   const double total = g.weights.sum();
-  FrameShapes shapes{g.origin, Matrix3X::Zero(3, modes.mode_count()), Matrix3X::Zero(3, modes.mode_count())};
+  FrameShapes shapes{g.origin, Matrix3X::Zero(3, set.shape_count()), Matrix3X::Zero(3, set.shape_count())};
   for (Eigen::Index i = 0; i < count; ++i) {
     const auto Psi = set.shapes.middleRows<3>(3 * nodes[static_cast<std::size_t>(i)]);
     shapes.translation += g.weights[i] / total * Psi;

@@ -216,9 +216,9 @@ void ModalBody::add_product(const MatrixX& matrix, const VectorXT<T>& z, VectorX
 
 double ModalBody::kinetic_energy(const Vector3& v_WBo_B, const ModalBodyState& state) const {
   // sum m_i |w x b_i + delta_i'|^2, point by point: S is not there with the terms of the source
-  const auto u = state.delta_dot - state.b.lazyProduct(skew(state.w_B));
-  return 0.5 * u.squaredNorm() + v_WBo_B.dot(linear_momentum(v_WBo_B, state)) -
-         0.5 * mass_ * v_WBo_B.squaredNorm();
+  const Matrix3 w = skew(state.w_B);
+  return 0.5 * (state.delta_dot - state.b.lazyProduct(w)).squaredNorm() +
+         v_WBo_B.dot(linear_momentum(v_WBo_B, state)) - 0.5 * mass_ * v_WBo_B.squaredNorm();
 }
 
 double ModalBody::elastic_energy(const ModalBodyState& state) const {

@@ -59,7 +59,7 @@ FlexibleSignal read_flexible_signal(const Value& word) {
                                      "the signals of a flexible body");
 }
 
-void read_flexible(const Value& section, Scene& scene) {
+void read_flexible_outputs(const Value& section, Scene& scene) {
   for (const auto& [name, value] : section.named()) {
     Scene::FlexibleOutput& output = output_of(read_flexible_body(name, value, scene), scene.output);
     for (const Value& word : value.list()) {
@@ -127,15 +127,14 @@ void read_output(const Value& section, Scene& scene) {
   output.where = section.where();
   if (const auto interval = keys.optional("interval")) output.interval = read_interval(*interval, scene);
   if (const auto nodes = keys.optional("nodes")) read_nodes(*nodes, scene);
-  if (const auto flexible = keys.optional("flexible")) read_flexible(*flexible, scene);
+  if (const auto flexible = keys.optional("flexible")) read_flexible_outputs(*flexible, scene);
   if (const auto recovery = keys.optional("recovery"))
     for (const auto& [name, value] : recovery->named())
       output.recoveries.push_back(read_recovery(name, value, scene));
   if (const auto points = keys.optional("points"))
     for (const auto& [name, value] : points->named()) {
       const Mapping point(value, {"body", "at", "node", "frame"});
-      output.points.push_back({name, read_point(scene, read_body(scene, point.required("body")),
-                                                point.optional("at"), point.optional("node"), value)});
+      output.points.push_back({name, read_point(scene, point, value)});
     }
 }
 

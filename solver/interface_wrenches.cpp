@@ -24,7 +24,7 @@ class WrenchSum {
 
   void add(MarkerIndex i, const Vector3& t, const Vector3& f) {
     const Marker& marker = system_.markers[i];
-    if (marker.body == body_) add(marker.node, ws_.markers[i].p_WM, t, f);
+    if (marker.body == body_) add(marker.interface, ws_.markers[i].p_WM, t, f);
   }
 
  private:
@@ -59,7 +59,7 @@ void calc_interface_wrenches(const System& system, int k, const Workspace& ws, E
     const TreeBody& child = system.bodies[i];
     if (child.parent != body) continue;
     const Vector6 W = -ws.bodies[i].F_joint;
-    sum.add(child.parent_node, ws.bodies[i].X_WB.p, angular(W), linear(W));
+    sum.add(child.parent_interface, ws.bodies[i].X_WB.p, angular(W), linear(W));
   }
 }
 

@@ -17,10 +17,11 @@ namespace wishbone {
 namespace {
 
 constexpr int kMaxIterations = 20;
-constexpr double kClosed = 1e-13;      // [m, rad]
-constexpr double kFast = 1e-3;         // convergence for which the Jacobian is kept
-constexpr double kDegraded = 0.2;      // of the sine at which the partition was chosen
-constexpr double kFarthestTurn = 2.0;  // from the reference orientation [rad]
+constexpr double kClosed = 1e-13;        // [m, rad]
+constexpr double kFast = 1e-3;           // convergence for which the Jacobian is kept
+constexpr double kDegraded = 0.2;        // of the sine at which the partition was chosen
+constexpr double kLeastPart = 1.0 / 64;  // of the way between two poses
+constexpr double kFarthestTurn = 2.0;    // from the reference orientation [rad]
 
 }  // namespace
 
@@ -31,6 +32,8 @@ PartitionedSystem::PartitionedSystem(const System& system, Workspace& ws)
       n_independent_(system.nv - n_dependent_),
       q_reference_(VectorX::Zero(system.nq)),
       d_(VectorX::Zero(system.nv)),
+      closed_(d_),
+      wanted_(d_),
       D_(MatrixX::Zero(n_dependent_, system.nv)),
       D_J_(MatrixX::Zero(n_dependent_, n_dependent_)),
       lu_(n_dependent_),
@@ -123,6 +126,7 @@ void PartitionedSystem::choose(const State& state) {
   std::sort(independent_.begin(), independent_.end());
   q_reference_ = state.q;
   d_.setZero();
+  closed_ = d_;
   sine_ = dependent_sine(Of::speeds);
 }
 
@@ -134,7 +138,8 @@ void PartitionedSystem::pack(const State& state, const Work& work, Eigen::Ref<Ve
   y.tail<2>() << work.loss, work.input;
 }
 
-void PartitionedSystem::close_positions(State& state) {
+/// Newton for d_J from where it is. @returns whether it converged
+bool PartitionedSystem::find_dependent(State& state) {
   double last = 0;
   bool factored = false;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
@@ -150,7 +155,7 @@ void PartitionedSystem::close_positions(State& state) {
     const double residual = n_dependent_ > 0 ? residual_.cwiseAbs().maxCoeff() : 0.0;
     // rounding ends the iteration where it stops to converge
     if (residual <= kClosed || (iteration > 2 && residual <= kProjectionTolerance && residual >= 0.5 * last))
-      return;
+      return true;
     if (!factored || residual > kFast * last) {
       calc_closure_jacobian();
       factor_dependent(Of::displacements);
@@ -161,9 +166,32 @@ void PartitionedSystem::close_positions(State& state) {
     residual_ = lu_.solve(residual_);
     for (int j = 0; j < n_dependent_; ++j) d_[dependent_[j]] -= residual_[j];
   }
-  throw NumericsError({fmt::format("t = {:.9g} s", state.t),
-                       "the dependent coordinates could not be found from the closures", "",
-                       "tighten analysis.rtol, or use form index1 near singular positions"});
+  return false;
+}
+
+/// d_J of the independent displacements in d: from those closed last, and where that is too far for Newton, by way of poses
+/// between, each at most half as far as failed before.
+/// @throws NumericsError when even small parts of the way are too far; d is then what was closed last
+void PartitionedSystem::close_positions(State& state) {
+  wanted_ = d_;
+  for (const int j : dependent_) d_[j] = closed_[j];
+  double done = 0, part = 1;
+  while (done < 1) {
+    const double share = part / (1 - done);  // of the way that is left
+    for (const int i : independent_)
+      d_[i] = share == 1 ? wanted_[i] : closed_[i] + share * (wanted_[i] - closed_[i]);
+    if (find_dependent(state)) {
+      closed_ = d_;
+      done += part;
+    } else {
+      d_ = closed_;
+      part /= 2;
+      if (part < kLeastPart)
+        throw NumericsError({fmt::format("t = {:.9g} s", state.t),
+                             "the dependent coordinates could not be found from the closures", "",
+                             "tighten analysis.rtol, or use form index1 near singular positions"});
+    }
+  }
 }
 
 void PartitionedSystem::close_velocities(State& state) {

@@ -31,6 +31,7 @@ class PartitionedSystem final : public FirstOrderSystem {
  private:
   void choose(const State& state);
   void close_positions(State& state);
+  bool find_dependent(State& state);
   void close_velocities(State& state);
   void calc_closure_jacobian();
   enum class Of { speeds, displacements };
@@ -45,7 +46,9 @@ class PartitionedSystem final : public FirstOrderSystem {
   int n_dependent_, n_independent_;
   std::vector<int> independent_, dependent_;  // speeds, ascending
   VectorX q_reference_;
-  VectorX d_;        // all displacements of the last evaluation
+  VectorX d_;       // all displacements of the last evaluation
+  VectorX closed_;  // those that were closed last, from which the next are sought
+  VectorX wanted_;
   double sine_ = 1;  // of the dependent columns when they were chosen
   MatrixX D_;        // kept rows x nv, of speeds
   MatrixX D_J_;      // its dependent columns, or those of D times the tangent of the displacements

@@ -2,7 +2,7 @@
 
 #include "models/compile.h"
 
-namespace wishbone::testing {
+namespace wishbone {
 
 /// The modes that a flexible body in modal form was made of.
 inline ModeSet compiled_modes(const CompiledScene& compiled, std::size_t body = 0) {
@@ -12,4 +12,4 @@ inline ModeSet compiled_modes(const CompiledScene& compiled, std::size_t body = 
           omega,        set.shapes,    set.damping.col(0).cwiseQuotient(2 * omega)};
 }
 
-}  // namespace wishbone::testing
+}  // namespace wishbone

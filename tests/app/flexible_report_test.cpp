@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 #include "app/comparison.h"
 #include "app/report_html.h"
@@ -70,11 +71,10 @@ TEST_F(FlexibleReport, OfAllSignalsPlotsTheLargestAndComparesEveryNumber) {
   const Comparison all = compare(a_, b_, {.globs = {}, .all = true});
   EXPECT_EQ(all.differences.size(), kModes + 1 + 9 + 5u);
   EXPECT_EQ(plots(all.sections).size(), 4 + 1 + 6 + 4u);
-  EXPECT_EQ(all.differences[kModes - 1].channel.text(), "/flexible/frame/modal_strain_energy 54");
-  EXPECT_DOUBLE_EQ(all.differences[kModes - 1].max_difference, 1.0 / (kModes * kModes));
-  std::vector<std::string> names;
-  for (const Difference& d : all.differences) names.push_back(d.channel.text());
-  EXPECT_THAT(names, Contains("/recovery/stress b"));
+  std::map<std::string, double> largest;
+  for (const Difference& d : all.differences) largest[d.channel.text()] = d.max_difference;
+  EXPECT_DOUBLE_EQ(largest.at("/flexible/frame/modal_strain_energy 54"), 1.0 / (kModes * kModes));
+  EXPECT_TRUE(largest.contains("/recovery/stress b"));
 }
 
 TEST_F(FlexibleReport, ChartsThePeakOfEveryMode) {

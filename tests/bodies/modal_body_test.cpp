@@ -465,8 +465,9 @@ class FreeFlight {
   VectorX rate(const VectorX& y) {
     evaluate(y);
     const Accelerations a(body_, state_, Vector3::Zero(), Vector3::Zero(), VectorX::Zero(m_));
+    const Matrix3 R = rotation_from_quaternion(y.data() + 6);
     VectorX rate(y.size());
-    rate << y.segment<3>(3), a.a, quaternion_rate<double>(y.data() + 6, y.segment<3>(10)), a.alpha,
+    rate << y.segment<3>(3), R * a.a, quaternion_rate<double>(y.data() + 6, y.segment<3>(10)), a.alpha,
         y.segment(13 + m_, m_), a.zddot, body_.damping_power(state_);
     return rate;
   }

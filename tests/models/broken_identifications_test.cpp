@@ -237,7 +237,7 @@ constexpr Broken kCatalogue[] = {
            "  add 'material: ...' here"},
     Broken{"ModelOfTooManyElements", "elements: [2, 1, 1]", "elements: [40, 40, 40]",
            "frame.yaml:28:36: identification.model.block.elements: error: the block has 68921 nodes, more "
-           "than the 500 whose modes can be computed\n"
+           "than the 40000 whose modes can be computed\n"
            "  take fewer elements"},
     Broken{"ModelWithoutMasses",
            "    block: {size: [1.2, 0.4, 0.3], elements: [2, 1, 1]}\n    material: {young: 210 MPa, poisson: "

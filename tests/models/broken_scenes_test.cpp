@@ -184,9 +184,12 @@ constexpr Broken kCatalogue[] = {
            "position: [1, 0, 0]\n    orientation: {axis: [0, 0, 0], angle: 1 deg}",
            "scene.yaml:10:19: bodies.arm.orientation.axis: error: the direction has zero length\n"
            "  give at least one component that is not zero"},
-    Broken{"UnknownForm", "form: = form", "form: nodal",
-           "scene.yaml:12:11: bodies.beam.form: error: not one of the forms of a body (got 'nodal')\n"
+    Broken{"UnknownForm", "form: = form", "form: modl",
+           "scene.yaml:12:11: bodies.beam.form: error: not one of the forms of a body (got 'modl')\n"
            "  did you mean 'modal'?"},
+    Broken{"NodalWithoutBlock", "mass: 2 kg", "mass: 2 kg\n    form: nodal",
+           "scene.yaml:6:3: bodies.arm: error: a nodal body needs the key 'flexible'\n"
+           "  add 'flexible: {block: ..., material: ..., modes: ...}'"},
     Broken{"ModalWithoutBlock", "mass: 2 kg", "mass: 2 kg\n    form: modal",
            "scene.yaml:6:3: bodies.arm: error: a modal body needs the key 'flexible'\n"
            "  add 'flexible: {block: ..., material: ..., modes: ...}'"},

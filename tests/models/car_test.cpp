@@ -239,8 +239,15 @@ class FlexibleForms : public ::testing::TestWithParam<std::tuple<const char*, co
 
 TEST_P(FlexibleForms, NodalAndModalWithAllModesAreTheSameSystem) {
   const Result modal = run_as("modal", 1e-10), nodal = run_as("nodal", 1e-10);
-  EXPECT_LT(worst_vehicle_difference(nodal, modal), 1e-7);
   EXPECT_LT(difference(nodal, modal, "/flexible/chassis/deflection"), 1e-7);
+  for (const std::string& path : kVehicle) {
+    // on a level depression the car runs straight: what symmetry keeps at zero has no size to compare with
+    const bool stays_zero = modal[path].cwiseAbs().maxCoeff() < 1e-8;
+    if (stays_zero)
+      EXPECT_LT(nodal[path].cwiseAbs().maxCoeff(), 1e-8) << path;
+    else
+      EXPECT_LT(difference(nodal, modal, path), 1e-7) << path;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Car, FlexibleForms,

@@ -15,7 +15,6 @@
 namespace wishbone {
 namespace {
 
-using testing::compiled_modes;
 
 const HexahedralMesh kMesh = make_block({1, 0.1, 0.2}, {3, 1, 2});
 constexpr IsotropicMaterial kMaterial{210e6, 0.3, 2600};
@@ -179,7 +178,7 @@ TEST_F(FlexibleSources, AreRefusedWithPlaceValueAndRemedy) {
             "scene.yaml:7:7: bodies.beam.flexible.model: error: the nodes come either from a block or from "
             "a model\n"
             "  remove one of the two");
-  EXPECT_EQ(message("model: {nodes: nodes.csv, stiffness: M.mtx, mass: M.mtx}").substr(0, 119),
+  EXPECT_EQ(message("model: {nodes: nodes.csv, stiffness: M.mtx, mass: M.mtx}").substr(0, 120),
             "scene.yaml:3:3: bodies.beam: free-free modes: error: the stiffness must not resist rigid-body "
             "motion of a "
             "free body (got");

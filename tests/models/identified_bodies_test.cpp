@@ -14,7 +14,6 @@
 namespace wishbone {
 namespace {
 
-using testing::compiled_modes;
 
 using testing::AllOf;
 using testing::ElementsAre;

@@ -55,7 +55,7 @@ TEST(RecoveryMatrix, FilesThatAreNoneAreRefused) {
             "R.csv:3 (byte 14): error: two rows have the same name (got 'top')\n"
             "  rename or remove one");
   EXPECT_EQ(refusal("R.csv", "row, a\ntop, 1\n, 2\n"),
-            "R.csv:3 (byte 14): error: the row has no name (got '')\n"
+            "R.csv:3 (byte 14): error: the row has no name\n"
             "  name it");
   EXPECT_EQ(refusal("R.csv", "row, a[Pa]\ntop, 1\n"),
             "R.csv:1 (byte 5): error: columns of a recovery matrix have no units (got 'a')\n"

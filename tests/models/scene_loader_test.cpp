@@ -367,7 +367,7 @@ TEST(Car, ResolvedTextLoadsToTheSameScene) {
 
 TEST(Car, EveryThingKnowsItsPlaceInTheFiles) {
   const Scene scene = depression();
-  EXPECT_THAT(body_named(scene, "chassis").where.text(), testing::EndsWith("car.yaml:31:3: bodies.chassis"));
+  EXPECT_THAT(body_named(scene, "chassis").where.text(), testing::EndsWith("car.yaml:32:3: bodies.chassis"));
   EXPECT_THAT(scene.motions[1].where.text(),
               testing::EndsWith("sine_depression.yaml:14:3: motions.front_right_steering"));
 }

@@ -17,7 +17,6 @@
 namespace wishbone {
 namespace {
 
-using testing::compiled_modes;
 
 using testing::ElementsAre;
 

@@ -3,6 +3,7 @@
 
 #include <fstream>
 
+#include "compiled_modes.h"
 #include "core/error.h"
 #include "identification/calculix/calculix_structure.h"
 #include "identification/formats/calculix_matrices.h"
@@ -36,8 +37,8 @@ class CalculixBody : public testing::Test {
   TextFiles files_;
 };
 
-const ModeSet& modes_of(const CompiledScene& compiled) {
-  return compiled.system.flexible.at(0).modal.modes();
+ModeSet modes_of(const CompiledScene& compiled) {
+  return compiled_modes(compiled);
 }
 
 TEST_F(CalculixBody, HasTheModesAndTheStaticsOfItsLumpedModel) {
@@ -90,7 +91,7 @@ TEST_F(CalculixBody, TakesItsNodesFromResultsToo) {
 
 TEST_F(CalculixBody, IsRefusedWithPlaceValueAndRemedy) {
   EXPECT_EQ(message("{calculix: frame}"),
-            "scene.yaml:7:14: bodies.frame.flexible.model: error: a flexible body needs lumped masses, and "
+            "scene.yaml:7:7: bodies.frame.flexible.model: error: a flexible body needs lumped masses, and "
             "this mass "
             "matrix is not lumped\n"
             "  add 'lumping: row_sum' or 'lumping: diagonal' to the model");
