@@ -11,36 +11,34 @@
 namespace wishbone {
 namespace {
 
-[[noreturn]] void reject(std::string what, std::string value, std::string remedy) {
-  throw InputError({"mode set", std::move(what), std::move(value), std::move(remedy)});
-}
-
 void check_sizes(const ModeSet& set) {
   const Eigen::Index n = set.node_count(), m = set.mode_count();
   const bool fits = set.node_mass.size() == n && set.node_position.cols() == n &&
                     set.shapes.rows() == 3 * n && set.shapes.cols() == m && set.damping_ratio.size() == m;
   if (!fits)
-    reject(
-        fmt::format(
-            "{} nodes and {} frequencies need {} masses and positions, {} x {} shapes and {} damping ratios",
-            n, m, n, 3 * n, m, m),
-        fmt::format("{} masses, {} positions, {} x {} shapes, {} damping ratios", set.node_mass.size(),
-                    set.node_position.cols(), set.shapes.rows(), set.shapes.cols(), set.damping_ratio.size()),
-        "give every node and every mode its row and column");
+    throw InputError(
+        {"mode set",
+         fmt::format(
+             "{} nodes and {} frequencies need {} masses and positions, {} x {} shapes and {} damping ratios",
+             n, m, n, 3 * n, m, m),
+         fmt::format("{} masses, {} positions, {} x {} shapes, {} damping ratios", set.node_mass.size(),
+                     set.node_position.cols(), set.shapes.rows(), set.shapes.cols(),
+                     set.damping_ratio.size()),
+         "give every node and every mode its row and column"});
 }
 
 void check_frequencies(const ModeSet& set) {
   for (int j = 0; j < set.mode_count(); ++j) {
     if (!(set.omega[j] > 0))
-      reject(fmt::format("the frequency of elastic mode {} must be positive", j + 1),
-             fmt::format("{:g} rad/s", set.omega[j]),
-             "leave the rigid-body modes out: they are built from geometry");
+      throw InputError({"mode set", fmt::format("the frequency of elastic mode {} must be positive", j + 1),
+                        fmt::format("{:g} rad/s", set.omega[j]),
+                        "leave the rigid-body modes out: they are built from geometry"});
     if (j > 0 && set.omega[j] < set.omega[j - 1])
-      reject("frequencies must ascend", fmt::format("mode {} at {:g} rad/s", j + 1, set.omega[j]),
-             "sort the modes");
+      throw InputError({"mode set", "frequencies must ascend",
+                        fmt::format("mode {} at {:g} rad/s", j + 1, set.omega[j]), "sort the modes"});
     if (!(set.damping_ratio[j] >= 0))
-      reject(fmt::format("the damping ratio of mode {} must not be negative", j + 1),
-             fmt::format("{:g}", set.damping_ratio[j]), "give zero for an undamped mode");
+      throw InputError({"mode set", fmt::format("the damping ratio of mode {} must not be negative", j + 1),
+                        fmt::format("{:g}", set.damping_ratio[j]), "give zero for an undamped mode"});
   }
 }
 
@@ -56,9 +54,9 @@ MatrixX rigid_body_modes(const VectorX& node_mass, const Matrix3X& node_position
   const Matrix3 J = point_mass_inertia(node_mass, node_position);
   const Eigen::SelfAdjointEigenSolver<Matrix3> principal(J, Eigen::EigenvaluesOnly);
   if (!(principal.eigenvalues()[0] > 1e-12 * principal.eigenvalues()[2]))
-    reject("the nodes of a flexible body must not lie on one line",
-           fmt::format("smallest principal inertia {:g} kg m2", principal.eigenvalues()[0]),
-           "give nodes that span the cross-section too");
+    throw InputError({"mode set", "the nodes of a flexible body must not lie on one line",
+                      fmt::format("smallest principal inertia {:g} kg m2", principal.eigenvalues()[0]),
+                      "give nodes that span the cross-section too"});
 
   const Eigen::LLT<Matrix3> L(J);
   const double inverse_root_mass = 1 / std::sqrt(node_mass.sum());
@@ -74,8 +72,8 @@ MatrixX rigid_body_modes(const VectorX& node_mass, const Matrix3X& node_position
 int ModeSet::node_index(int node_id) const {
   const auto found = std::find(node_ids.begin(), node_ids.end(), node_id);
   if (found == node_ids.end())
-    reject("there is no such node", fmt::format("node {}", node_id),
-           fmt::format("name one of the {} nodes of the flexible body", node_count()));
+    throw InputError({"mode set", "there is no such node", fmt::format("node {}", node_id),
+                      fmt::format("name one of the {} nodes of the flexible body", node_count())});
   return static_cast<int>(found - node_ids.begin());
 }
 
@@ -85,8 +83,8 @@ Matrix3 ModeSet::inertia() const {
 
 ModeSet ModeSet::lowest(int count) const {
   if (count < 0 || count > mode_count())
-    reject(fmt::format("this set has {} modes", mode_count()), fmt::format("{}", count),
-           "ask for at most that many");
+    throw InputError({"mode set", fmt::format("this set has {} modes", mode_count()),
+                      fmt::format("{}", count), "ask for at most that many"});
   return {node_ids,
           node_mass,
           node_position,

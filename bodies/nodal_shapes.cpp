@@ -11,10 +11,6 @@
 namespace wishbone {
 namespace {
 
-[[noreturn]] void reject(std::string what, std::string value, std::string remedy) {
-  throw InputError({"nodal form", std::move(what), std::move(value), std::move(remedy)});
-}
-
 VectorX inverse_root_masses(const NodalModel& model) {
   return model.node_mass.transpose().replicate(3, 1).reshaped().cwiseSqrt().cwiseInverse();
 }
@@ -38,7 +34,8 @@ ShapeSet shapes_in(const NodalModel& model, const MatrixX& Q, bool mean_axes) {
 int node_index(const NodalModel& model, int id) {
   const auto found = std::find(model.node_ids.begin(), model.node_ids.end(), id);
   if (found == model.node_ids.end())
-    reject("there is no such node", fmt::format("node {}", id), "fix the axes on nodes of the body");
+    throw InputError({"nodal form", "there is no such node", fmt::format("node {}", id),
+                      "fix the axes on nodes of the body"});
   return static_cast<int>(found - model.node_ids.begin());
 }
 
@@ -56,8 +53,9 @@ std::array<int, 6> held_freedoms(const NodalModel& model, const std::array<int, 
   // turning about d moves j along d x e
   const Vector3 across = d.cross(e);
   if (!(across.norm() > 1e-6 * d.norm() * e.norm()))
-    reject("three nodes to which the axes are fixed must not lie on one line",
-           fmt::format("nodes {}, {}, {}", nodes[0], nodes[1], nodes[2]), "choose nodes that span a plane");
+    throw InputError({"nodal form", "three nodes to which the axes are fixed must not lie on one line",
+                      fmt::format("nodes {}, {}, {}", nodes[0], nodes[1], nodes[2]),
+                      "choose nodes that span a plane"});
   // i is kept from moving across the axis along which it is farthest from o
   const int along = largest_component(d);
   return {3 * o,
@@ -73,8 +71,10 @@ std::array<int, 6> held_freedoms(const NodalModel& model, const std::array<int, 
 NodalModel nodal_model(const ModeSet& modes) {
   const int complete = 3 * modes.node_count() - 6;
   if (modes.mode_count() != complete)
-    reject(fmt::format("the nodal form of {} nodes needs all {} modes", modes.node_count(), complete),
-           fmt::format("{} modes", modes.mode_count()), "keep all modes, or use the modal form");
+    throw InputError(
+        {"nodal form",
+         fmt::format("the nodal form of {} nodes needs all {} modes", modes.node_count(), complete),
+         fmt::format("{} modes", modes.mode_count()), "keep all modes, or use the modal form"});
   const MatrixX M_Psi = modes.node_mass.transpose().replicate(3, 1).reshaped().asDiagonal() * modes.shapes;
   NodalModel model{modes.node_ids, modes.node_mass, modes.node_position, {}, {}};
   model.stiffness = M_Psi * modes.omega.cwiseAbs2().asDiagonal() * M_Psi.transpose();

@@ -11,39 +11,40 @@
 namespace wishbone {
 namespace {
 
-[[noreturn]] void reject(std::string what, std::string value, std::string remedy) {
-  throw InputError({"flexible body", std::move(what), std::move(value), std::move(remedy)});
-}
-
 bool is_square_or_diagonal(const MatrixX& matrix, Eigen::Index m) {
   return matrix.rows() == m && (matrix.cols() == 1 || matrix.cols() == m);
 }
 
 void check_nodes(const ShapeSet& set) {
   const Eigen::Index n = set.node_count(), m = set.shape_count();
-  if (n < 3) reject("a flexible body needs at least three nodes", fmt::format("{}", n), "give more nodes");
+  if (n < 3)
+    throw InputError({"flexible body", "a flexible body needs at least three nodes", fmt::format("{}", n),
+                      "give more nodes"});
   const bool fits = set.node_mass.size() == n && set.node_position.cols() == n &&
                     set.shapes.rows() == 3 * n && is_square_or_diagonal(set.stiffness, m) &&
                     is_square_or_diagonal(set.damping, m);
   if (!fits)
-    reject(fmt::format("{} nodes and {} shapes need {} masses and positions, {} x {} shapes, stiffness and "
-                       "damping of {} rows",
-                       n, m, n, 3 * n, m, m),
-           fmt::format("{} masses, {} positions, {} x {} shapes, stiffness {} x {}, damping {} x {}",
-                       set.node_mass.size(), set.node_position.cols(), set.shapes.rows(), set.shapes.cols(),
-                       set.stiffness.rows(), set.stiffness.cols(), set.damping.rows(), set.damping.cols()),
-           "give every node and every shape its row and column");
+    throw InputError(
+        {"flexible body",
+         fmt::format("{} nodes and {} shapes need {} masses and positions, {} x {} shapes, stiffness and "
+                     "damping of {} rows",
+                     n, m, n, 3 * n, m, m),
+         fmt::format("{} masses, {} positions, {} x {} shapes, stiffness {} x {}, damping {} x {}",
+                     set.node_mass.size(), set.node_position.cols(), set.shapes.rows(), set.shapes.cols(),
+                     set.stiffness.rows(), set.stiffness.cols(), set.damping.rows(), set.damping.cols()),
+         "give every node and every shape its row and column"});
   if (static_cast<Eigen::Index>(std::set<int>(set.node_ids.begin(), set.node_ids.end()).size()) != n)
-    reject("node ids must differ from each other", "a repeated id", "number each node once");
+    throw InputError(
+        {"flexible body", "node ids must differ from each other", "a repeated id", "number each node once"});
   for (int i = 0; i < set.node_count(); ++i)
     if (!(set.node_mass[i] > 0))
-      reject(fmt::format("the mass of node {} must be positive", set.node_ids[i]),
-             fmt::format("{:g} kg", set.node_mass[i]),
-             "leave massless nodes out, or lump the mass so that every node has its share");
+      throw InputError({"flexible body", fmt::format("the mass of node {} must be positive", set.node_ids[i]),
+                        fmt::format("{:g} kg", set.node_mass[i]),
+                        "leave massless nodes out, or lump the mass so that every node has its share"});
   if (!set.shapes.allFinite() || !set.node_position.allFinite() || !set.stiffness.allFinite() ||
       !set.damping.allFinite())
-    reject("shapes, positions, stiffness and damping must be finite numbers", "an infinity or not a number",
-           "check how they were read");
+    throw InputError({"flexible body", "shapes, positions, stiffness and damping must be finite numbers",
+                      "an infinity or not a number", "check how they were read"});
 }
 
 void check_mass_centre(const ShapeSet& set) {
@@ -52,9 +53,9 @@ void check_mass_centre(const ShapeSet& set) {
   const double gyration_radius =
       std::sqrt(point_mass_inertia(set.node_mass, set.node_position).trace() / mass);
   if (!(centre.norm() <= ModeSet::kOrthogonalityTolerance * gyration_radius))
-    reject("node positions must be taken about the mass centre",
-           fmt::format("mass centre at ({:g}, {:g}, {:g}) m", centre.x(), centre.y(), centre.z()),
-           "subtract the mass centre from every position");
+    throw InputError({"flexible body", "node positions must be taken about the mass centre",
+                      fmt::format("mass centre at ({:g}, {:g}, {:g}) m", centre.x(), centre.y(), centre.z()),
+                      "subtract the mass centre from every position"});
 }
 
 void check_orthogonality(const ShapeSet& set) {
@@ -65,22 +66,25 @@ void check_orthogonality(const ShapeSet& set) {
   const MatrixX M_shapes = mass_of_row.asDiagonal() * set.shapes;
   const double self = (set.shapes.transpose() * M_shapes - MatrixX::Identity(m, m)).cwiseAbs().maxCoeff();
   if (!(self <= tolerance))
-    reject("modes must be mass-orthonormal, Psi^T M Psi = 1", fmt::format("largest error {:.3g}", self),
-           "divide each mode by the root of its modal mass and orthogonalise modes of equal frequency");
+    throw InputError(
+        {"flexible body", "modes must be mass-orthonormal, Psi^T M Psi = 1",
+         fmt::format("largest error {:.3g}", self),
+         "divide each mode by the root of its modal mass and orthogonalise modes of equal frequency"});
   const MatrixX rigid = rigid_body_modes(set.node_mass, set.node_position);
   const double coupling = (rigid.transpose() * M_shapes).cwiseAbs().maxCoeff();
   if (set.mean_axes && !(coupling <= tolerance))
-    reject("elastic modes must be mass-orthogonal to rigid-body motion",
-           fmt::format("largest product {:.3g}", coupling),
-           "remove the rigid-body part of each mode with the lumped masses of this set");
+    throw InputError({"flexible body", "elastic modes must be mass-orthogonal to rigid-body motion",
+                      fmt::format("largest product {:.3g}", coupling),
+                      "remove the rigid-body part of each mode with the lumped masses of this set"});
 }
 
 void check_symmetry(const MatrixX& matrix, const char* name) {
   if (matrix.cols() == 1) return;
   const double asymmetry = (matrix - matrix.transpose()).norm();
   if (!(asymmetry <= ModeSet::kOrthogonalityTolerance * matrix.norm()))
-    reject(fmt::format("the {} must be symmetric", name), fmt::format("asymmetry {:.3g}", asymmetry),
-           "take its symmetric part if the difference is noise");
+    throw InputError({"flexible body", fmt::format("the {} must be symmetric", name),
+                      fmt::format("asymmetry {:.3g}", asymmetry),
+                      "take its symmetric part if the difference is noise"});
 }
 
 }  // namespace
@@ -88,8 +92,8 @@ void check_symmetry(const MatrixX& matrix, const char* name) {
 int ShapeSet::node_index(int node_id) const {
   const auto found = std::find(node_ids.begin(), node_ids.end(), node_id);
   if (found == node_ids.end())
-    reject("there is no such node", fmt::format("node {}", node_id),
-           fmt::format("name one of the {} nodes of the flexible body", node_count()));
+    throw InputError({"flexible body", "there is no such node", fmt::format("node {}", node_id),
+                      fmt::format("name one of the {} nodes of the flexible body", node_count())});
   return static_cast<int>(found - node_ids.begin());
 }
 

@@ -12,17 +12,14 @@
 namespace wishbone {
 namespace {
 
-[[noreturn]] void reject(std::string what, std::string value, std::string remedy) {
-  throw InputError({"flexible body", std::move(what), std::move(value), std::move(remedy)});
-}
-
 /// Rows of x, y, z of the nodes.
 std::vector<int> freedoms_of(const std::vector<int>& nodes, const AnalyticalModel& model) {
   std::vector<int> freedoms;
   for (const int node : nodes) {
     const auto found = std::find(model.node_ids.begin(), model.node_ids.end(), node);
     if (found == model.node_ids.end())
-      reject("the body has no such node", fmt::format("node {}", node), "name nodes of the body");
+      throw InputError({"flexible body", "the body has no such node", fmt::format("node {}", node),
+                        "name nodes of the body"});
     const int first = 3 * static_cast<int>(found - model.node_ids.begin());
     for (int axis = 0; axis < 3; ++axis) freedoms.push_back(first + axis);
   }
@@ -45,8 +42,8 @@ FlexibleModes flexible_modes(const AnalyticalModel& model, const ModeChoice& nor
                              const std::vector<int>& attachment_nodes,
                              const std::vector<int>& constraint_nodes) {
   if (model.node_mass.size() == 0)
-    reject("its masses must be lumped", "a mass matrix that is not lumped",
-           "lump it: 'lumping: row_sum' or 'lumping: diagonal'");
+    throw InputError({"flexible body", "its masses must be lumped", "a mass matrix that is not lumped",
+                      "lump it: 'lumping: row_sum' or 'lumping: diagonal'"});
   FlexibleModes result;
   ModeSet& set = result.set;
   set.node_ids = model.node_ids;
@@ -60,7 +57,8 @@ FlexibleModes flexible_modes(const AnalyticalModel& model, const ModeChoice& nor
       combined_modes(model.K, model.M, rigid, kept, attachment_shapes(model, rigid, attachment_nodes),
                      constraint_shapes(model, rigid, constraint_nodes));
   if (all.modes.count() == 0)
-    reject("no mode is chosen", describe(normal), "raise the limit, or write 'modes: none' for a rigid body");
+    throw InputError({"flexible body", "no mode is chosen", describe(normal),
+                      "raise the limit, or write 'modes: none' for a rigid body"});
   set.omega = all.modes.lambda.cwiseSqrt();
   set.shapes = std::move(all.modes.shapes);
   set.damping_ratio = VectorX::Zero(set.omega.size());

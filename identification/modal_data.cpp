@@ -14,40 +14,40 @@
 namespace wishbone {
 namespace {
 
-[[noreturn]] void reject(std::string what, std::string value, std::string remedy) {
-  throw InputError({"modal data", std::move(what), std::move(value), std::move(remedy)});
-}
-
 void check_sizes(const ModalData& data) {
   const Eigen::Index n = data.node_count(), m = data.mode_count(), r = data.freedom_count();
   const bool fits = data.node_position.cols() == n && (!data.has_masses() || data.node_mass.size() == n) &&
                     data.shapes.rows() == r && data.shapes.cols() == m && data.damping_ratio.size() == m &&
                     data.modal_mass.size() == m;
   if (!fits)
-    reject(
-        fmt::format("{} nodes, {} freedoms and {} modes need as many positions, rows and columns", n, r, m),
-        fmt::format("{} positions, {} masses, {} x {} shapes, {} damping ratios, {} modal masses",
-                    data.node_position.cols(), data.node_mass.size(), data.shapes.rows(), data.shapes.cols(),
-                    data.damping_ratio.size(), data.modal_mass.size()),
-        "give every node, freedom and mode its share");
+    throw InputError(
+        {"modal data",
+         fmt::format("{} nodes, {} freedoms and {} modes need as many positions, rows and columns", n, r, m),
+         fmt::format("{} positions, {} masses, {} x {} shapes, {} damping ratios, {} modal masses",
+                     data.node_position.cols(), data.node_mass.size(), data.shapes.rows(), data.shapes.cols(),
+                     data.damping_ratio.size(), data.modal_mass.size()),
+         "give every node, freedom and mode its share"});
 }
 
 void check_names(const ModalData& data) {
   const std::set<int> known(data.node_ids.begin(), data.node_ids.end());
   if (known.size() != data.node_ids.size())
-    reject("node ids must differ from each other", "a repeated id", "number each node once");
+    throw InputError(
+        {"modal data", "node ids must differ from each other", "a repeated id", "number each node once"});
   const auto check_node = [&](int node, std::string_view where) {
     if (!known.contains(node))
-      reject(fmt::format("{} names a node that has no position", where), fmt::format("node {}", node),
-             "give the coordinates of every node that is named");
+      throw InputError({"modal data", fmt::format("{} names a node that has no position", where),
+                        fmt::format("node {}", node), "give the coordinates of every node that is named"});
   };
   std::set<std::pair<int, int>> rows;
   for (const Freedom& freedom : data.freedoms) {
     check_node(freedom.node, "a freedom");
     if (freedom.axis < 0 || freedom.axis > 2)
-      reject("the axis of a freedom must be 0, 1 or 2", fmt::format("{}", freedom.axis), "give x, y or z");
+      throw InputError({"modal data", "the axis of a freedom must be 0, 1 or 2",
+                        fmt::format("{}", freedom.axis), "give x, y or z"});
     if (!rows.emplace(freedom.node, freedom.axis).second)
-      reject("a freedom must be listed once", to_string(freedom), "remove the second one");
+      throw InputError(
+          {"modal data", "a freedom must be listed once", to_string(freedom), "remove the second one"});
   }
   for (const auto& spring : data.support.springs) check_node(spring.node, "a support spring");
   for (const auto& joint : data.support.joints) check_node(joint.node, "a support joint");
@@ -61,44 +61,48 @@ void check_names(const ModalData& data) {
 void check_support(const Support& support) {
   const auto check_direction = [](const Vector3& u, std::string_view what, int node) {
     if (!(std::abs(u.norm() - 1) <= 1e-9))
-      reject(fmt::format("the direction of a support {} must be a unit vector", what),
-             fmt::format("length {:g} at node {}", u.norm(), node), "divide it by its length");
+      throw InputError({"modal data",
+                        fmt::format("the direction of a support {} must be a unit vector", what),
+                        fmt::format("length {:g} at node {}", u.norm(), node), "divide it by its length"});
   };
   for (const auto& spring : support.springs) {
     check_direction(spring.direction, "spring", spring.node);
     if (!(spring.stiffness > 0 && std::isfinite(spring.stiffness)))
-      reject("the stiffness of a support spring must be positive",
-             fmt::format("{:g} N/m at node {}", spring.stiffness, spring.node), "leave the spring out");
+      throw InputError({"modal data", "the stiffness of a support spring must be positive",
+                        fmt::format("{:g} N/m at node {}", spring.stiffness, spring.node),
+                        "leave the spring out"});
   }
   for (const auto& joint : support.joints) check_direction(joint.direction, "joint", joint.node);
   for (const auto& mass : support.masses)
     if (!(mass.mass >= 0 && std::isfinite(mass.mass)))
-      reject("a support mass must not be negative", fmt::format("{:g} kg at node {}", mass.mass, mass.node),
-             "give what moves with the node");
+      throw InputError({"modal data", "a support mass must not be negative",
+                        fmt::format("{:g} kg at node {}", mass.mass, mass.node),
+                        "give what moves with the node"});
 }
 
 void check_values(const ModalData& data) {
   if (!data.node_position.allFinite() || !data.shapes.allFinite())
-    reject("positions and shapes must be finite numbers", "an infinity or not a number",
-           "check how they were read");
+    throw InputError({"modal data", "positions and shapes must be finite numbers",
+                      "an infinity or not a number", "check how they were read"});
   for (int i = 0; i < data.node_mass.size(); ++i)
     if (!(data.node_mass[i] >= 0 && std::isfinite(data.node_mass[i])))
-      reject(fmt::format("the mass of node {} must not be negative", data.node_ids[i]),
-             fmt::format("{:g} kg", data.node_mass[i]), "give its lumped mass");
+      throw InputError({"modal data",
+                        fmt::format("the mass of node {} must not be negative", data.node_ids[i]),
+                        fmt::format("{:g} kg", data.node_mass[i]), "give its lumped mass"});
   for (int j = 0; j < data.mode_count(); ++j) {
     if (!(data.omega[j] > 0 && std::isfinite(data.omega[j])))
-      reject(fmt::format("the frequency of mode {} must be positive", j + 1),
-             fmt::format("{:g} rad/s", data.omega[j]),
-             "leave rigid-body modes of a free structure out: they follow from its geometry");
+      throw InputError({"modal data", fmt::format("the frequency of mode {} must be positive", j + 1),
+                        fmt::format("{:g} rad/s", data.omega[j]),
+                        "leave rigid-body modes of a free structure out: they follow from its geometry"});
     if (j > 0 && data.omega[j] < data.omega[j - 1])
-      reject("frequencies must ascend", fmt::format("mode {} at {:g} rad/s", j + 1, data.omega[j]),
-             "sort the modes");
+      throw InputError({"modal data", "frequencies must ascend",
+                        fmt::format("mode {} at {:g} rad/s", j + 1, data.omega[j]), "sort the modes"});
     if (!(data.damping_ratio[j] >= 0 && std::isfinite(data.damping_ratio[j])))
-      reject(fmt::format("the damping ratio of mode {} must not be negative", j + 1),
-             fmt::format("{:g}", data.damping_ratio[j]), "give zero for an undamped mode");
+      throw InputError({"modal data", fmt::format("the damping ratio of mode {} must not be negative", j + 1),
+                        fmt::format("{:g}", data.damping_ratio[j]), "give zero for an undamped mode"});
     if (!(std::isnan(data.modal_mass[j]) || (data.modal_mass[j] > 0 && std::isfinite(data.modal_mass[j]))))
-      reject(fmt::format("the modal mass of mode {} must be positive", j + 1),
-             fmt::format("{:g}", data.modal_mass[j]), "leave it out when it is not known");
+      throw InputError({"modal data", fmt::format("the modal mass of mode {} must be positive", j + 1),
+                        fmt::format("{:g}", data.modal_mass[j]), "leave it out when it is not known"});
   }
 }
 
@@ -111,8 +115,8 @@ std::string to_string(const Freedom& freedom) {
 int ModalData::node_index(int node_id) const {
   const auto found = std::find(node_ids.begin(), node_ids.end(), node_id);
   if (found == node_ids.end())
-    reject("there is no such node", fmt::format("node {}", node_id),
-           fmt::format("name one of the {} nodes", node_count()));
+    throw InputError({"modal data", "there is no such node", fmt::format("node {}", node_id),
+                      fmt::format("name one of the {} nodes", node_count())});
   return static_cast<int>(found - node_ids.begin());
 }
 
@@ -129,8 +133,8 @@ bool ModalData::is_complete() const {
 ModalData ModalData::with_modes(const std::vector<int>& modes) const {
   for (const int j : modes)
     if (j < 0 || j >= mode_count())
-      reject(fmt::format("there are {} modes", mode_count()), fmt::format("mode {}", j + 1),
-             "choose among them");
+      throw InputError({"modal data", fmt::format("there are {} modes", mode_count()),
+                        fmt::format("mode {}", j + 1), "choose among them"});
   ModalData chosen = *this;
   chosen.omega = omega(modes);
   chosen.damping_ratio = damping_ratio(modes);

@@ -8,18 +8,15 @@
 namespace wishbone {
 namespace {
 
-[[noreturn]] void refuse(std::string what, std::string value, std::string remedy) {
-  throw InputError({"flexible body", std::move(what), std::move(value), std::move(remedy)});
-}
-
 /// Rows of x, y, z of every node, node by node.
 std::vector<int> rows_by_node(const ModalData& modes) {
   std::vector<int> rows;
   for (const Freedom& freedom : all_freedoms(modes.node_ids)) {
     const auto row = modes.row(freedom);
     if (!row)
-      refuse("its modes must show every node in x, y and z", to_string(freedom) + " is missing",
-             "expand the measurement to a model (expansion: serep or static)");
+      throw InputError({"flexible body", "its modes must show every node in x, y and z",
+                        to_string(freedom) + " is missing",
+                        "expand the measurement to a model (expansion: serep or static)"});
     rows.push_back(*row);
   }
   return rows;
@@ -29,10 +26,12 @@ std::vector<int> rows_by_node(const ModalData& modes) {
 
 ModeSet mode_set_of(const ModalData& modes) {
   if (!modes.support.empty())
-    refuse("its modes must be free-free", "modes on a support", "identify the free-free modes (find: free)");
+    throw InputError({"flexible body", "its modes must be free-free", "modes on a support",
+                      "identify the free-free modes (find: free)"});
   if (!modes.has_masses())
-    refuse("it needs a mass at every node", "masses unknown, or a mass matrix that is not lumped",
-           "give a column 'mass' with the nodes, or mass, centre and inertia");
+    throw InputError({"flexible body", "it needs a mass at every node",
+                      "masses unknown, or a mass matrix that is not lumped",
+                      "give a column 'mass' with the nodes, or mass, centre and inertia"});
   const std::vector<int> rows = rows_by_node(modes);
   ModeSet set;
   set.node_ids = modes.node_ids;

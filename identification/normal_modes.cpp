@@ -20,10 +20,6 @@ using Eigen::Index;
 constexpr Index kRigid = 6;
 constexpr Index kSmall = 600;  // freedoms
 
-[[noreturn]] void reject(std::string what, std::string value, std::string remedy) {
-  throw InputError({"flexible body", std::move(what), std::move(value), std::move(remedy)});
-}
-
 /// As many of the lowest modes as hold all that are chosen; of a limit below which there are fewer, some more.
 Index lowest_needed(const AnalyticalModel& model, const ModeChoice& choice) {
   const Index elastic = model.K.rows() - kRigid;
@@ -37,9 +33,9 @@ Index lowest_needed(const AnalyticalModel& model, const ModeChoice& choice) {
 
 Modes dense_modes(const AnalyticalModel& model) {
   if (model.K.rows() > kMostDenseFreedoms)
-    reject("the model is too large for that many of its modes",
-           fmt::format("{} of at most {} freedoms", model.K.rows(), kMostDenseFreedoms),
-           "choose fewer modes than a quarter of the freedoms");
+    throw InputError({"flexible body", "the model is too large for that many of its modes",
+                      fmt::format("{} of at most {} freedoms", model.K.rows(), kMostDenseFreedoms),
+                      "choose fewer modes than a quarter of the freedoms"});
   const ModeSet set = free_free_modes(model.node_ids, model.node_mass, model.node_position, MatrixX(model.K));
   return {set.omega.cwiseAbs2(), set.shapes};
 }
@@ -50,10 +46,11 @@ Modes sparse_modes(const AnalyticalModel& model, const MatrixX& rigid, Index cou
   constexpr double kNoFrequency = 1e-6;  // of the lowest elastic eigenvalue
   const double elastic = found.lambda[kRigid];
   if (!(found.lambda.head(kRigid).cwiseAbs().maxCoeff() <= kNoFrequency * elastic))
-    reject("the stiffness must resist every motion but the six of a rigid body, and none of these",
-           fmt::format("eigenvalues {:.3g}, ..., {:.3g}, {:.3g} rad2/s2", found.lambda[0],
-                       found.lambda[kRigid - 1], elastic),
-           "remove supports; look for loose parts or hinges between elements");
+    throw InputError({"flexible body",
+                      "the stiffness must resist every motion but the six of a rigid body, and none of these",
+                      fmt::format("eigenvalues {:.3g}, ..., {:.3g}, {:.3g} rad2/s2", found.lambda[0],
+                                  found.lambda[kRigid - 1], elastic),
+                      "remove supports; look for loose parts or hinges between elements"});
   Modes modes = cleaned_up({found.lambda.tail(count), found.shapes.rightCols(count)}, model.M, rigid);
   fix_signs(modes.shapes);
   return modes;
@@ -65,8 +62,8 @@ std::vector<Index> chosen_columns(const ModeChoice& choice, const Modes& modes) 
   if (const auto* listed = std::get_if<ListedModes>(&choice)) {
     for (const int number : listed->numbers) {
       if (number < 1 || number > modes.count())
-        reject(fmt::format("the body has {} elastic modes", modes.count()), fmt::format("mode {}", number),
-               "list modes that it has");
+        throw InputError({"flexible body", fmt::format("the body has {} elastic modes", modes.count()),
+                          fmt::format("mode {}", number), "list modes that it has"});
       chosen.push_back(number - 1);
     }
     return chosen;
@@ -85,8 +82,8 @@ std::vector<Index> chosen_columns(const ModeChoice& choice, const Modes& modes) 
 Modes normal_modes(const AnalyticalModel& model, const ModeChoice& choice) {
   const Index n = model.K.rows(), needed = lowest_needed(model, choice);
   if (needed > n - kRigid)
-    reject(fmt::format("the body has {} elastic modes", n - kRigid), fmt::format("{} wanted", needed),
-           "choose fewer");
+    throw InputError({"flexible body", fmt::format("the body has {} elastic modes", n - kRigid),
+                      fmt::format("{} wanted", needed), "choose fewer"});
   if (needed == 0) return {VectorX(0), MatrixX(n, 0)};
   const bool dense = n <= kSmall || 4 * (needed + kRigid) >= n;
   const Vector3 centre = model.node_position * model.node_mass / model.node_mass.sum();

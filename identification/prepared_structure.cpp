@@ -15,10 +15,6 @@
 namespace wishbone {
 namespace {
 
-[[noreturn]] void refuse(std::string what, std::string value, std::string remedy) {
-  throw InputError({"identification", std::move(what), std::move(value), std::move(remedy)});
-}
-
 /// Rows of the measured freedoms in the model, whose nodes have the same ids.
 std::vector<int> rows_in_model(const ModalData& data, const AnalyticalModel& model) {
   std::map<int, int> place;
@@ -27,8 +23,8 @@ std::vector<int> rows_in_model(const ModalData& data, const AnalyticalModel& mod
   for (const Freedom& freedom : data.freedoms) {
     const auto found = place.find(freedom.node);
     if (found == place.end())
-      refuse("the model has no such node", to_string(freedom),
-             "number the measured points as the nodes of the model");
+      throw InputError({"identification", "the model has no such node", to_string(freedom),
+                        "number the measured points as the nodes of the model"});
     rows.push_back(3 * found->second + freedom.axis);
   }
   return rows;
@@ -93,13 +89,16 @@ void take_model_freedoms(const AnalyticalModel& model, MatrixX shapes, ModalData
 
 void cover(const IdentificationTask& task, PreparedStructure& out) {
   if (task.coverage == Coverage::kAsMeasured) return;
-  if (!task.model) refuse("expansion and reduction need a model", "none was given", "name its M and K");
+  if (!task.model)
+    throw InputError(
+        {"identification", "expansion and reduction need a model", "none was given", "name its M and K"});
   const AnalyticalModel& model = *task.model;
   const std::vector<int> rows = rows_in_model(out.data, model);
   warn_of_places(out.data, model, rows, out.warnings);
   if (task.coverage == Coverage::kGuyan && (task.mass || task.rigid_body))
-    refuse("the masses are those of the model, reduced by Guyan, and given besides", "",
-           "give no other masses, or expand the modes to the model (expansion: serep or static)");
+    throw InputError({"identification",
+                      "the masses are those of the model, reduced by Guyan, and given besides", "",
+                      "give no other masses, or expand the modes to the model (expansion: serep or static)"});
   switch (task.coverage) {
     case Coverage::kAsMeasured:
       break;
@@ -145,8 +144,10 @@ void find_masses(const RigidBodyData& body, PreparedStructure& out) {
 /// Lumped masses over the freedoms; every node with mass must be seen.
 SparseMatrix lumped(const ModalData& data) {
   if (!data.has_masses())
-    refuse("the masses of the nodes are not known", fmt::format("{} nodes", data.node_count()),
-           "give a column 'mass' with the nodes, a mass matrix, or mass, centre and inertia of the body");
+    throw InputError(
+        {"identification", "the masses of the nodes are not known",
+         fmt::format("{} nodes", data.node_count()),
+         "give a column 'mass' with the nodes, a mass matrix, or mass, centre and inertia of the body"});
   std::set<int> seen;
   VectorX diagonal(data.freedom_count());
   for (int i = 0; i < data.freedom_count(); ++i) {
@@ -154,15 +155,17 @@ SparseMatrix lumped(const ModalData& data) {
     diagonal[i] = data.node_mass[data.node_index(freedom.node)];
     seen.insert(freedom.node);
     if (!(diagonal[i] > 0))
-      refuse("every measured freedom must have mass", to_string(freedom) + " has none",
-             "leave massless points out of the modes, or expand them to a model");
+      throw InputError({"identification", "every measured freedom must have mass",
+                        to_string(freedom) + " has none",
+                        "leave massless points out of the modes, or expand them to a model"});
   }
   for (int i = 0; i < data.node_count(); ++i)
     if (data.node_mass[i] > 0 && !seen.contains(data.node_ids[static_cast<std::size_t>(i)]))
-      refuse("a node with mass was not measured",
-             fmt::format("node {}", data.node_ids[static_cast<std::size_t>(i)]),
-             "lump its mass on its neighbours, or expand the measurement to a model (expansion: serep or "
-             "static)");
+      throw InputError(
+          {"identification", "a node with mass was not measured",
+           fmt::format("node {}", data.node_ids[static_cast<std::size_t>(i)]),
+           "lump its mass on its neighbours, or expand the measurement to a model (expansion: serep or "
+           "static)"});
   return diagonal_matrix(diagonal);
 }
 
@@ -171,9 +174,10 @@ void set_up_mass(const IdentificationTask& task, PreparedStructure& out) {
   if (out.M.size() == 0 || task.rigid_body) out.M = task.mass ? *task.mass : lumped(out.data);
   const Eigen::Index n = out.data.freedom_count();
   if (out.M.rows() != n || out.M.cols() != n)
-    refuse("the mass matrix must have a row and a column for every freedom of the modes",
-           fmt::format("{} x {} for {} freedoms", out.M.rows(), out.M.cols(), n),
-           "give both for the same freedoms in the same order, or name the model in 'expansion'");
+    throw InputError({"identification",
+                      "the mass matrix must have a row and a column for every freedom of the modes",
+                      fmt::format("{} x {} for {} freedoms", out.M.rows(), out.M.cols(), n),
+                      "give both for the same freedoms in the same order, or name the model in 'expansion'"});
 }
 
 void warn_of_directions(const ModalData& data, std::vector<std::string>& warnings) {
@@ -190,7 +194,8 @@ PreparedStructure prepare(const IdentificationTask& task) {
   PreparedStructure out;
   task.measured.validate();
   out.data = with_held_freedoms(task.measured);
-  if (out.data.mode_count() == 0) refuse("there are no modes to start from", "0 modes", "choose some");
+  if (out.data.mode_count() == 0)
+    throw InputError({"identification", "there are no modes to start from", "0 modes", "choose some"});
   cover(task, out);
   set_up_mass(task, out);
   warn_of_directions(out.data, out.warnings);
@@ -217,9 +222,10 @@ ChangeMatrices change_matrices(const StructureChange& change, const std::vector<
   const auto add = [n](const std::optional<SparseMatrix>& given, const char* name, SparseMatrix& sum) {
     if (!given) return;
     if (given->rows() != n || given->cols() != n)
-      refuse(fmt::format("{} freedoms need a change of {} of {} x {}", n, name, n, n),
-             fmt::format("{} x {}", given->rows(), given->cols()),
-             "give it for the freedoms of the modes in their order");
+      throw InputError({"identification",
+                        fmt::format("{} freedoms need a change of {} of {} x {}", n, name, n, n),
+                        fmt::format("{} x {}", given->rows(), given->cols()),
+                        "give it for the freedoms of the modes in their order"});
     sum += *given;
   };
   add(change.dM, "mass", matrices.dM);

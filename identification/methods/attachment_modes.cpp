@@ -11,21 +11,17 @@
 namespace wishbone {
 namespace {
 
-[[noreturn]] void reject(std::string what, std::string value, std::string remedy) {
-  throw InputError({"attachment modes", std::move(what), std::move(value), std::move(remedy)});
-}
-
 void check_input(const SparseMatrix& K, const MatrixX& rigid, const std::vector<int>& freedoms) {
   for (const int freedom : freedoms)
     if (freedom < 0 || freedom >= K.rows())
-      reject(fmt::format("the structure has {} freedoms", K.rows()), fmt::format("freedom {}", freedom + 1),
-             "name freedoms of the structure");
+      throw InputError({"attachment modes", fmt::format("the structure has {} freedoms", K.rows()),
+                        fmt::format("freedom {}", freedom + 1), "name freedoms of the structure"});
   if (rigid.cols() == 0) return;
   const double resistance = (K * rigid).norm() / (K.norm() * rigid.norm());
   if (!(resistance <= 1e-8))
-    reject("the stiffness must not resist rigid-body motion of a free body",
-           fmt::format("relative resistance {:.3g}", resistance),
-           "remove supports and springs to ground from it");
+    throw InputError({"attachment modes", "the stiffness must not resist rigid-body motion of a free body",
+                      fmt::format("relative resistance {:.3g}", resistance),
+                      "remove supports and springs to ground from it"});
 }
 
 /// As many freedoms as there are rigid motions, by pivoting so that holding them holds every one of these well.
@@ -75,9 +71,9 @@ class HeldStiffness {
     constexpr double kNoStiffness = 1e-12;  // of the largest stiffness of a freedom
     const VectorX& d = factor_.vectorD();
     if (factor_.info() == Eigen::Success && d.minCoeff() > kNoStiffness * diagonal.maxCoeff()) return;
-    reject("the stiffness must resist every motion that is not rigid",
-           d.size() == 0 ? "" : fmt::format("smallest pivot {:.3g} N/m", d.minCoeff()),
-           "look for loose parts or hinges between elements");
+    throw InputError({"attachment modes", "the stiffness must resist every motion that is not rigid",
+                      d.size() == 0 ? "" : fmt::format("smallest pivot {:.3g} N/m", d.minCoeff()),
+                      "look for loose parts or hinges between elements"});
   }
 
   std::vector<int> place_;  ///< of a freedom among those that are not held; -1: held

@@ -11,18 +11,15 @@
 namespace wishbone {
 namespace {
 
-[[noreturn]] void reject(std::string what, std::string value, std::string remedy) {
-  throw InputError({"constraint modes", std::move(what), std::move(value), std::move(remedy)});
-}
-
 void check_freedoms(const SparseMatrix& K, const std::vector<int>& freedoms) {
   std::set<int> seen;
   for (const int freedom : freedoms) {
     if (freedom < 0 || freedom >= K.rows())
-      reject(fmt::format("the structure has {} freedoms", K.rows()), fmt::format("freedom {}", freedom + 1),
-             "name freedoms of the structure");
+      throw InputError({"constraint modes", fmt::format("the structure has {} freedoms", K.rows()),
+                        fmt::format("freedom {}", freedom + 1), "name freedoms of the structure"});
     if (!seen.insert(freedom).second)
-      reject("an interface freedom is named twice", fmt::format("freedom {}", freedom + 1), "name each once");
+      throw InputError({"constraint modes", "an interface freedom is named twice",
+                        fmt::format("freedom {}", freedom + 1), "name each once"});
   }
 }
 
@@ -31,9 +28,10 @@ void check_hold(const MatrixX& rigid, const std::vector<int>& freedoms) {
   qr.setThreshold(1e-6);
   qr.compute(rigid(freedoms, Eigen::all));
   if (qr.rank() < rigid.cols())
-    reject("the interface nodes must hold the body, for all its other nodes follow statically",
-           fmt::format("{} of {} rigid motions are held", qr.rank(), rigid.cols()),
-           "name at least three nodes that do not lie on one line, or take attachment modes");
+    throw InputError({"constraint modes",
+                      "the interface nodes must hold the body, for all its other nodes follow statically",
+                      fmt::format("{} of {} rigid motions are held", qr.rank(), rigid.cols()),
+                      "name at least three nodes that do not lie on one line, or take attachment modes"});
 }
 
 }  // namespace

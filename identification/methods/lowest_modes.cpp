@@ -24,24 +24,23 @@ constexpr double kDependent = 1e-10;         // what is left of a vector that de
 constexpr Index kBlock = 6;                  // a block finds eigenvalues repeated as often as it has columns
 constexpr Index kWidestBlock = 48;
 
-[[noreturn]] void reject(std::string what, std::string value, std::string remedy) {
-  throw InputError({"lowest modes", std::move(what), std::move(value), std::move(remedy)});
-}
-
 void check_matrix(const char* name, const SparseMatrix& A, Index n) {
   if (A.rows() != n || A.cols() != n)
-    reject(fmt::format("{} must be square and as large as K", name),
-           fmt::format("{} x {} with {} freedoms", A.rows(), A.cols(), n), "list the same freedoms in both");
+    throw InputError({"lowest modes", fmt::format("{} must be square and as large as K", name),
+                      fmt::format("{} x {} with {} freedoms", A.rows(), A.cols(), n),
+                      "list the same freedoms in both"});
   for (Index j = 0; j < A.outerSize(); ++j)
     for (SparseMatrix::InnerIterator entry(A, j); entry; ++entry)
       if (!std::isfinite(entry.value()))
-        reject(fmt::format("{} must be finite", name),
-               fmt::format("{} in row {}, column {}", entry.value(), entry.row() + 1, entry.col() + 1),
-               "look where the matrix comes from");
+        throw InputError(
+            {"lowest modes", fmt::format("{} must be finite", name),
+             fmt::format("{} in row {}, column {}", entry.value(), entry.row() + 1, entry.col() + 1),
+             "look where the matrix comes from"});
   const double asymmetry = SparseMatrix(A - SparseMatrix(A.transpose())).norm();
   if (!(asymmetry <= 1e-8 * A.norm()))
-    reject(fmt::format("{} must be symmetric", name), fmt::format("asymmetry {:.3g}", asymmetry / A.norm()),
-           "store both triangles; take the symmetric part if the difference is noise");
+    throw InputError({"lowest modes", fmt::format("{} must be symmetric", name),
+                      fmt::format("asymmetry {:.3g}", asymmetry / A.norm()),
+                      "store both triangles; take the symmetric part if the difference is noise"});
 }
 
 void check_input(const SparseMatrix& K, const SparseMatrix& M, int count) {
@@ -49,12 +48,12 @@ void check_input(const SparseMatrix& K, const SparseMatrix& M, int count) {
   check_matrix("K", K, n);
   check_matrix("M", M, n);
   if (count < 1 || count > n)
-    reject(fmt::format("the number of modes must be in 1..{}", n), fmt::format("{}", count),
-           "ask for fewer modes than freedoms");
+    throw InputError({"lowest modes", fmt::format("the number of modes must be in 1..{}", n),
+                      fmt::format("{}", count), "ask for fewer modes than freedoms"});
   Index i = 0;
   if (const double mass = VectorX(M.diagonal()).minCoeff(&i); !(mass > 0))
-    reject("every freedom must have a positive mass", fmt::format("{:g} kg in row {}", mass, i + 1),
-           "condense massless freedoms out first");
+    throw InputError({"lowest modes", "every freedom must have a positive mass",
+                      fmt::format("{:g} kg in row {}", mass, i + 1), "condense massless freedoms out first"});
 }
 
 double automatic_shift(const SparseMatrix& K, const SparseMatrix& M) {
@@ -225,8 +224,9 @@ Modes lowest_modes(const SparseMatrix& K, const SparseMatrix& M, int count, std:
   const double sigma = shift.value_or(automatic_shift(K, M));
   const ShiftedStiffness A(K, M, sigma);
   if (A.modes_below() != 0)
-    reject("K - sigma M must be positive definite", fmt::format("sigma = {:g} rad2/s2", sigma),
-           "give a shift below the lowest eigenvalue, negative for a free body; look for negative stiffness");
+    throw InputError(
+        {"lowest modes", "K - sigma M must be positive definite", fmt::format("sigma = {:g} rad2/s2", sigma),
+         "give a shift below the lowest eigenvalue, negative for a free body; look for negative stiffness"});
   for (Index block = kBlock; block <= kWidestBlock; block *= 2) {
     const Modes modes = rayleigh_ritz(K, M, lowest_subspace(A, M, count, block));
     check_residuals(K, M, A, modes);

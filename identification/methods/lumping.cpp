@@ -9,14 +9,10 @@ namespace {
 
 using Eigen::Index;
 
-[[noreturn]] void reject(std::string what, std::string value, std::string remedy) {
-  throw InputError({"mass matrix", std::move(what), std::move(value), std::move(remedy)});
-}
-
 void check_size(const SparseMatrix& M) {
   if (M.rows() != M.cols() || M.rows() % 3 != 0)
-    reject("it must have three rows and columns for every node", fmt::format("{} x {}", M.rows(), M.cols()),
-           "list x, y, z of each node");
+    throw InputError({"mass matrix", "it must have three rows and columns for every node",
+                      fmt::format("{} x {}", M.rows(), M.cols()), "list x, y, z of each node"});
 }
 
 /// sum_j M_ij over the freedoms j of the direction of i (3 x n).
@@ -54,14 +50,17 @@ VectorX lumped_masses(const SparseMatrix& M, Lumping lumping) {
   }
   for (Index i = 0; i < mass.cols(); ++i) {
     if (!(mass.col(i).minCoeff() > 0))
-      reject(fmt::format("the lumped mass of node number {} must be positive", i + 1),
-             fmt::format("{:g} kg", mass.col(i).minCoeff()),
-             lumping == Lumping::row_sum ? "lump by 'diagonal', which keeps the sign"
-                                         : "condense massless nodes out of the model first");
+      throw InputError({"mass matrix",
+                        fmt::format("the lumped mass of node number {} must be positive", i + 1),
+                        fmt::format("{:g} kg", mass.col(i).minCoeff()),
+                        lumping == Lumping::row_sum ? "lump by 'diagonal', which keeps the sign"
+                                                    : "condense massless nodes out of the model first"});
     if (!(mass.col(i).maxCoeff() - mass.col(i).minCoeff() <= 1e-6 * mass.col(i).maxCoeff()))
-      reject(fmt::format("the lumped mass of node number {} must be the same in x, y and z", i + 1),
-             fmt::format("{:g}, {:g}, {:g} kg", mass(0, i), mass(1, i), mass(2, i)),
-             "leave out what moves with a node in one direction only");
+      throw InputError(
+          {"mass matrix",
+           fmt::format("the lumped mass of node number {} must be the same in x, y and z", i + 1),
+           fmt::format("{:g}, {:g}, {:g} kg", mass(0, i), mass(1, i), mass(2, i)),
+           "leave out what moves with a node in one direction only"});
   }
   return mass.colwise().mean();
 }

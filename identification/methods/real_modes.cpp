@@ -13,22 +13,21 @@
 namespace wishbone {
 namespace {
 
-[[noreturn]] void refuse(std::string what, std::string value, std::string remedy) {
-  throw InputError({"complex modes", std::move(what), std::move(value), std::move(remedy)});
-}
-
 void check(const Eigen::VectorXcd& s, const Eigen::MatrixXcd& psi) {
   if (s.size() != psi.cols())
-    refuse("each mode needs one eigenvalue", fmt::format("{} eigenvalues, {} modes", s.size(), psi.cols()),
-           "list them in the same order");
+    throw InputError({"complex modes", "each mode needs one eigenvalue",
+                      fmt::format("{} eigenvalues, {} modes", s.size(), psi.cols()),
+                      "list them in the same order"});
   for (Eigen::Index j = 0; j < s.size(); ++j) {
     const double size = std::abs(s[j]), length = psi.col(j).norm();
     if (!(size > 0 && std::isfinite(size)))
-      refuse(fmt::format("the eigenvalue of mode {} must be finite and not zero", j + 1),
-             fmt::format("|s| = {}", size), "leave rigid-body modes out");
+      throw InputError({"complex modes",
+                        fmt::format("the eigenvalue of mode {} must be finite and not zero", j + 1),
+                        fmt::format("|s| = {}", size), "leave rigid-body modes out"});
     if (!(length > 0 && std::isfinite(length)))
-      refuse(fmt::format("the shape of mode {} must be finite and not zero", j + 1),
-             fmt::format("length {}", length), "leave the mode out");
+      throw InputError({"complex modes",
+                        fmt::format("the shape of mode {} must be finite and not zero", j + 1),
+                        fmt::format("length {}", length), "leave the mode out"});
   }
 }
 

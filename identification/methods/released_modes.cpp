@@ -15,16 +15,12 @@
 namespace wishbone {
 namespace {
 
-[[noreturn]] void refuse(std::string what, std::string value, std::string remedy) {
-  throw InputError({"support", std::move(what), std::move(value), std::move(remedy)});
-}
-
 /// Joints that leave a rigid motion free hide it from the measurement, unless springs resist it.
 void check_holds(const SupportMatrices& support, Eigen::Index held, Eigen::Index rigid) {
   if (support.D.rows() > 0 && held < rigid)
-    refuse("the joints leave rigid-body motion of the structure free",
-           fmt::format("{} of {} rigid-body motions are held", held, rigid),
-           "name every joint of the support, or the springs that hold the other motions");
+    throw InputError({"support", "the joints leave rigid-body motion of the structure free",
+                      fmt::format("{} of {} rigid-body motions are held", held, rigid),
+                      "name every joint of the support, or the springs that hold the other motions"});
 }
 
 /// Number of independent joint directions, rank D.
@@ -57,8 +53,9 @@ ElasticPart elastic_part(const MatrixX& shapes, const SparseMatrix& M, const Mat
   // Psi L^-T is M-orthonormal; the singular directions of its rigid part P are rigid to the degree sigma
   const Eigen::LLT<MatrixX> L(shapes.transpose() * (M * shapes));
   if (L.info() != Eigen::Success)
-    refuse("the given modes must be linearly independent", fmt::format("{} modes", shapes.cols()),
-           "leave out modes that were listed twice, and support masses that exceed those of the nodes");
+    throw InputError(
+        {"support", "the given modes must be linearly independent", fmt::format("{} modes", shapes.cols()),
+         "leave out modes that were listed twice, and support masses that exceed those of the nodes"});
   const MatrixX basis = L.matrixL().solve(shapes.transpose()).transpose();
   const MatrixX M_rigid = M * rigid;
   const Eigen::JacobiSVD<MatrixX> svd(M_rigid.transpose() * basis, Eigen::ComputeFullV);
@@ -111,8 +108,8 @@ ReleasedModes release(const Modes& supported, const SparseMatrix& M, const Suppo
   const Eigen::Index sprung = held - held_by_joints;
   const Eigen::Index count = std::min(unit.count() - sprung, part.X.cols());
   if (count < 1)
-    refuse("there must be more modes than rigid-body motions on springs",
-           fmt::format("{} modes, {} such motions", unit.count(), sprung), "measure more modes");
+    throw InputError({"support", "there must be more modes than rigid-body motions on springs",
+                      fmt::format("{} modes, {} such motions", unit.count(), sprung), "measure more modes"});
 
   const MatrixX K_X = part.X.transpose() * F * part.V;
   const Modes small = solve_eigenproblem((K_X + K_X.transpose()) / 2, part.X.transpose() * (M * part.X));

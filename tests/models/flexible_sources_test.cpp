@@ -15,7 +15,6 @@
 namespace wishbone {
 namespace {
 
-
 const HexahedralMesh kMesh = make_block({1, 0.1, 0.2}, {3, 1, 2});
 constexpr IsotropicMaterial kMaterial{210e6, 0.3, 2600};
 constexpr std::string_view kMaterialText = "{young: 210 MPa, poisson: 0.3, density: 2600}";

@@ -14,7 +14,6 @@
 namespace wishbone {
 namespace {
 
-
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;

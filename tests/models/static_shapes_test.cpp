@@ -17,7 +17,6 @@
 namespace wishbone {
 namespace {
 
-
 using testing::ElementsAre;
 
 // Nodes 1 to 12; held at 1, sprung at 4 and 7, driven at 12.
