@@ -50,7 +50,7 @@ bool has_any(const Value& value, std::initializer_list<std::string_view> keys) {
          std::any_of(keys.begin(), keys.end(), [&](std::string_view key) { return value.node()->find(key); });
 }
 
-double read_limit(const Value& frequency) {
+double read_frequency(const Value& frequency) {
   return 2 * std::numbers::pi * frequency.positive(kFrequency);
 }
 
@@ -71,7 +71,7 @@ ModeChoice read_choice(const Value& value, int elastic) {
   if (value.node()->entries.size() != 1)
     keys.refuse("one of 'lowest', 'below' and 'list' chooses the modes", "remove the others");
   if (const auto lowest = keys.optional("lowest")) return LowestModes{lowest->integer(1, elastic)};
-  if (const auto below = keys.optional("below")) return ModesBelow{read_limit(*below)};
+  if (const auto below = keys.optional("below")) return ModesBelow{read_frequency(*below)};
   return read_list(keys.required("list"), elastic);
 }
 
@@ -98,7 +98,7 @@ Scene::StaticNodes read_static_nodes(const Value& value, const Scene::Flexible& 
 /// All normal modes below a limit, and the attachment modes of every interface.
 void take_automatic(const Mapping& keys, Scene::Flexible& flexible) {
   flexible.automatic = true;
-  flexible.modes = ModesBelow{read_limit(keys.required("below"))};
+  flexible.modes = ModesBelow{read_frequency(keys.required("below"))};
   flexible.attachment = {true, {}};
   if (const auto attachment = keys.optional("attachment"))
     attachment->refuse("'modes: automatic' takes the attachment modes of every interface already",

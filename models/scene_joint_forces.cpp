@@ -14,7 +14,7 @@ CoordinateDimensions dimensions_of(const JointCoordinateKind& coordinate, const 
   return {kLength, kVelocity, kForce, kStiffness, kDamping};
 }
 
-Scene::CoordinateSpring read_spring(int i, const Value& value, const JointCoordinateKind& kind) {
+Scene::CoordinateSpring read_joint_spring(int i, const Value& value, const JointCoordinateKind& kind) {
   const Mapping keys(value, {"stiffness", "damping", "free"});
   const CoordinateDimensions d = dimensions_of(kind, value);
   Scene::CoordinateSpring spring;
@@ -27,7 +27,7 @@ Scene::CoordinateSpring read_spring(int i, const Value& value, const JointCoordi
   return spring;
 }
 
-Scene::CoordinateFriction read_friction(int i, const Value& value, const JointCoordinateKind& kind) {
+Scene::CoordinateFriction read_joint_friction(int i, const Value& value, const JointCoordinateKind& kind) {
   const Mapping keys(value, {"coulomb", "viscous", "smoothing", "peak", "peak_rate"});
   const CoordinateDimensions d = dimensions_of(kind, value);
   Scene::CoordinateFriction friction;
@@ -45,7 +45,7 @@ Scene::CoordinateFriction read_friction(int i, const Value& value, const JointCo
   return friction;
 }
 
-Scene::CoordinateLimit read_limit(int i, const Value& value, const JointCoordinateKind& kind) {
+Scene::CoordinateLimit read_joint_limit(int i, const Value& value, const JointCoordinateKind& kind) {
   const Mapping keys(value, {"lower", "upper", "stiffness", "exponent", "damping"});
   const CoordinateDimensions d = dimensions_of(kind, value);
   Scene::CoordinateLimit limit;
@@ -70,9 +70,9 @@ void read_joint_forces(const Mapping& keys, const JointKindInfo& kind, Scene::Jo
       for_each_coordinate(
           *value, kind, [&](int i, const Value& own) { list.push_back(read(i, own, kind.coordinates[i])); });
   };
-  each("spring", read_spring, joint.springs);
-  each("friction", read_friction, joint.frictions);
-  each("limits", read_limit, joint.limits);
+  each("spring", read_joint_spring, joint.springs);
+  each("friction", read_joint_friction, joint.frictions);
+  each("limits", read_joint_limit, joint.limits);
 }
 
 }  // namespace wishbone::scene_sections

@@ -85,7 +85,7 @@ void write(UffOutput& out, const UffTraceLine& trace) {
   out.end_dataset();
 }
 
-void check(const UffShape& shape) {
+void check_shape(const UffShape& shape) {
   const std::size_t per_node = static_cast<std::size_t>(shape.values_per_node) * (shape.is_complex ? 2 : 1);
   if (shape.values_per_node < 1 || shape.values.size() != shape.nodes.size() * per_node)
     throw InputError({"Universal File", fmt::format("a shape needs {} values at each node", per_node),
@@ -166,7 +166,7 @@ void write_analysis_data(UffOutput& out, const UffShape& s) {
 }  // namespace
 
 void write_uff(const std::filesystem::path& path, const UffFile& file) {
-  std::for_each(file.shapes.begin(), file.shapes.end(), check);
+  std::for_each(file.shapes.begin(), file.shapes.end(), check_shape);
   UffOutput out(path);
   if (file.header) write(out, *file.header);
   if (file.units) write(out, *file.units);
