@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 #include <utility>
 
 #include "core/dual.h"
@@ -11,99 +11,70 @@
 namespace wishbone {
 namespace {
 
-template <class T>
-using PointsT = typename ModalBodyStateT<T>::Points;
-using Points = PointsT<double>;
-
-/// The points of a p x 3 array as one vector, x rows first: the rows of ModalBody::shapes_.
-template <class T>
-Eigen::Map<VectorXT<T>> stacked(Eigen::Matrix<T, Eigen::Dynamic, 3>& points) {
-  return {points.data(), points.size()};
-}
-template <class T>
-Eigen::Map<const VectorXT<T>> stacked(const Eigen::Matrix<T, Eigen::Dynamic, 3>& points) {
-  return {points.data(), points.size()};
-}
-
-/// sum a_i x b_i over the rows of two arrays of points.
-template <class T>
-Vector3T<T> sum_of_cross_products(const Eigen::Matrix<T, Eigen::Dynamic, 3>& a,
-                                  const Eigen::Matrix<T, Eigen::Dynamic, 3>& b) {
-  return {a.col(1).dot(b.col(2)) - a.col(2).dot(b.col(1)), a.col(2).dot(b.col(0)) - a.col(0).dot(b.col(2)),
-          a.col(0).dot(b.col(1)) - a.col(1).dot(b.col(0))};
-}
-
-/// J = tr(B) 1 - B,  B = sum b_i b_i^T
-template <class T>
-Matrix3T<T> inertia(const Eigen::Matrix<T, Eigen::Dynamic, 3>& b) {
-  const Matrix3T<T> B = b.transpose().lazyProduct(b);
-  Matrix3T<T> J = -B;
-  J.diagonal().array() += B.trace();
-  return J;
-}
-
-/// Interface nodes first, the others after them in their own order.
-std::vector<int> interface_first(const ShapeSet& modes, const std::vector<int>& interface_node_ids) {
-  std::vector<int> order;
-  std::vector<bool> taken(modes.node_count(), false);
-  for (int id : interface_node_ids) {
-    const int node = modes.node_index(id);
-    if (taken[node])
+/// Columns of the interface nodes in the set.
+std::vector<int> columns_of(const ShapeSet& set, const std::vector<int>& node_ids) {
+  std::vector<int> columns;
+  for (const int id : node_ids) {
+    columns.push_back(set.node_index(id));
+    if (std::count(columns.begin(), columns.end(), columns.back()) > 1)
       throw InputError({"modal body", "an interface node must be named once", fmt::format("node {}", id),
                         "let every joint and force at this node share one interface"});
-    taken[node] = true;
-    order.push_back(node);
   }
-  for (int node = 0; node < modes.node_count(); ++node)
-    if (!taken[node]) order.push_back(node);
-  return order;
+  return columns;
 }
 
-/// Rows sqrt(m_i) [s_x s_y s_z | Psi_x | Psi_y | Psi_z] of the given nodes, p x 3 (m + 1).
-MatrixX mass_weighted_rows(const ShapeSet& modes, std::span<const int> nodes) {
-  const int m = modes.shape_count();
-  MatrixX rows(nodes.size(), 3 * (m + 1));
-  for (Eigen::Index r = 0; r < rows.rows(); ++r) {
-    const int i = nodes[r];
-    rows.row(r).head<3>() = modes.node_position.col(i).transpose();
-    for (int axis = 0; axis < 3; ++axis)
-      rows.row(r).segment(3 + axis * m, m) = modes.shapes.row(3 * i + axis);
-    rows.row(r) *= std::sqrt(modes.node_mass[i]);
-  }
-  return rows;
+std::variant<NodeSums, InertiaInvariants> make_inertia(const ShapeSet& set, const std::vector<int>& nodes,
+                                                       InertiaMethod method) {
+  const bool cheaper =
+      InertiaInvariants::operations(set, nodes.size()) < NodeSums::operations(set, nodes.size());
+  if (method == InertiaMethod::invariants || (method == InertiaMethod::cheaper && cheaper))
+    return InertiaInvariants(set, nodes);
+  return NodeSums(set, nodes);
 }
 
-/// As few rows with the same second moments: A = Q R with Q^T Q = 1 gives A^T A = R^T R.
-MatrixX equivalent_rows(const MatrixX& rows) {
-  if (rows.rows() <= rows.cols()) return rows;
-  const Eigen::HouseholderQR<MatrixX> qr(rows);
-  return qr.matrixQR().topRows(rows.cols()).triangularView<Eigen::Upper>();
+/// sum += matrix z, with a matrix or its diagonal.
+template <class T>
+void add_product(const MatrixX& matrix, const VectorXT<T>& z, VectorXT<T>& sum) {
+  if (matrix.cols() == 1)
+    sum += matrix.col(0).cwiseProduct(z);
+  else
+    sum.noalias() += matrix * z;
+}
+
+// ab = xx, yy, zz, xy, xz, yz
+template <class T>
+Eigen::Matrix<T, 6, 1> products_of_components(const Vector3T<T>& w) {
+  return {w.x() * w.x(), w.y() * w.y(), w.z() * w.z(), w.x() * w.y(), w.x() * w.z(), w.y() * w.z()};
+}
+
+/// The symmetric matrix A with w^T A w = sum_{a <= b} w_a w_b moments_ab.
+template <class T>
+Matrix3T<T> symmetric(const Eigen::Matrix<T, 6, 1>& moments) {
+  Matrix3T<T> A;
+  const T xy = 0.5 * moments[3], xz = 0.5 * moments[4], yz = 0.5 * moments[5];
+  A << moments[0], xy, xz, xy, moments[1], yz, xz, yz, moments[2];
+  return A;
 }
 
 }  // namespace
 
 ModalBody::ModalBody(const ModeSet& modes, const std::vector<int>& interface_node_ids,
-                     const std::vector<InterfaceFrame>& frames, InertiaTerms terms)
-    : ModalBody((modes.validate(), shapes_of(modes)), interface_node_ids, frames, terms) {}
+                     const std::vector<InterfaceFrame>& frames, InertiaTerms terms, InertiaMethod method)
+    : ModalBody((modes.validate(), shapes_of(modes)), interface_node_ids, frames, terms, method) {}
 
 ModalBody::ModalBody(ShapeSet set, const std::vector<int>& interface_node_ids,
-                     const std::vector<InterfaceFrame>& frames, InertiaTerms terms)
-    : set_(std::move(set)), terms_(terms), node_count_(static_cast<int>(interface_node_ids.size())) {
-  set_.validate();
-  mass_ = set_.node_mass.sum();
+                     const std::vector<InterfaceFrame>& frames, InertiaTerms terms, InertiaMethod method)
+    : set_((set.validate(), std::move(set))),
+      terms_(terms),
+      mass_(set_.node_mass.sum()),
+      node_count_(static_cast<int>(interface_node_ids.size())),
+      inertia_(make_inertia(set_, columns_of(set_, interface_node_ids), method)) {
   if (!mean_axes()) {
     P_ = Matrix3X::Zero(3, mode_count());
     for (int i = 0; i < set_.node_count(); ++i) P_ += set_.node_mass[i] * set_.shapes.middleRows<3>(3 * i);
   }
-
-  const std::vector<int> order = interface_first(set_, interface_node_ids);
-  const std::span<const int> nodes(order);
-  const int k = node_count_, m = mode_count();
-  inverse_root_mass_.resize(k);
-  for (int i = 0; i < k; ++i) {
-    interface_shapes_.push_back(set_.shapes.middleRows<3>(3 * order[i]));
-    inverse_root_mass_[i] = 1 / std::sqrt(set_.node_mass[order[i]]);
-  }
+  for (const int id : interface_node_ids)
+    interface_shapes_.push_back(set_.shapes.middleRows<3>(3 * set_.node_index(id)));
   frame_origins_.resize(3, static_cast<Eigen::Index>(frames.size()));
   for (std::size_t f = 0; f < frames.size(); ++f) {
     FrameShapes shapes = frame_shapes(frames[f], set_);
@@ -111,15 +82,17 @@ ModalBody::ModalBody(ShapeSet set, const std::vector<int>& interface_node_ids,
     interface_shapes_.push_back(std::move(shapes.translation));
     frame_rotations_.push_back(std::move(shapes.rotation));
   }
+}
 
-  const MatrixX own = mass_weighted_rows(set_, nodes.first(k));
-  const MatrixX others = equivalent_rows(mass_weighted_rows(set_, nodes.subspan(k)));
-  MatrixX rows(own.rows() + others.rows(), own.cols());
-  rows << own, others;
-  s_ = rows.leftCols<3>();
-  shapes_.resize(3 * rows.rows(), m);
-  for (int axis = 0; axis < 3; ++axis)
-    shapes_.middleRows(axis * rows.rows(), rows.rows()) = rows.middleCols(3 + axis * m, m);
+InertiaMethod ModalBody::inertia_method() const {
+  return std::holds_alternative<NodeSums>(inertia_) ? InertiaMethod::node_sums : InertiaMethod::invariants;
+}
+
+double ModalBody::operations(InertiaMethod method) const {
+  const double sums = NodeSums::operations(set_, node_count_);
+  const double invariants = InertiaInvariants::operations(set_, node_count_);
+  if (method == InertiaMethod::cheaper) return std::min(sums, invariants);
+  return method == InertiaMethod::node_sums ? sums : invariants;
 }
 
 template <class T>
@@ -130,7 +103,8 @@ ModalBodyStateT<T> ModalBody::make_state() const {
   state.S = Matrix3XT<T>::Zero(3, m);
   state.interface_b = state.interface_delta_dot = Matrix3XT<T>::Zero(3, k);
   state.turns.resize(frame_rotations_.size());
-  state.delta = state.b = state.delta_dot = state.bias = PointsT<T>::Zero(s_.rows(), 3);
+  state.stiffening_z.setZero(set_.stiffening.size() > 0 ? m : 0, 6);
+  std::visit([&](const auto& inertia) { inertia.make_arrays(state); }, inertia_);
   const VectorXT<T> rest = VectorXT<T>::Zero(m);
   set_position<T>(rest.data(), state);
   set_velocity<T>(Vector3T<T>::Zero(), rest.data(), state);
@@ -159,70 +133,59 @@ void ModalBody::move_frames(ModalBodyStateT<T>& state) const {
 
 template <class T>
 void ModalBody::set_position(const T* z, ModalBodyStateT<T>& state) const {
-  const Eigen::Index p = s_.rows(), k = node_count_;
   state.z = Eigen::Map<const VectorXT<T>>(z, mode_count());
-  // delta_i = Psi_i z,  b_i = s_i + delta_i
-  stacked(state.delta).noalias() = shapes_ * state.z;
-  state.b = s_ + state.delta;
-  state.interface_b.leftCols(k) = (inverse_root_mass_.asDiagonal() * state.b.topRows(k)).transpose();
+  const bool coupled = terms_ == InertiaTerms::consistent;
+  std::visit([&](const auto& inertia) { inertia.set_position(coupled, state); }, inertia_);
   place_frames(state);
-  state.J = inertia(state.b);
   if (!mean_axes()) state.c.noalias() = P_ * state.z;  // sum m_i s_i = 0
-  if (terms_ == InertiaTerms::source) return;
-  // S = sum b_i x Psi_i; sum s_i x Psi_i vanishes with mean axes
-  const auto& moved = mean_axes() ? state.delta : state.b;
-  const auto X = shapes_.topRows(p), Y = shapes_.middleRows(p, p), Z = shapes_.bottomRows(p);
-  const auto dx = moved.col(0), dy = moved.col(1), dz = moved.col(2);
-  state.S.row(0).noalias() = dy.transpose() * Z;
-  state.S.row(0).noalias() -= dz.transpose() * Y;
-  state.S.row(1).noalias() = dz.transpose() * X;
-  state.S.row(1).noalias() -= dx.transpose() * Z;
-  state.S.row(2).noalias() = dx.transpose() * Y;
-  state.S.row(2).noalias() -= dy.transpose() * X;
+  if (state.stiffening_z.rows() > 0) shorten(state);
 }
 
 template <class T>
 void ModalBody::set_velocity(const Vector3T<T>& w_B, const T* zdot, ModalBodyStateT<T>& state) const {
-  const Eigen::Index k = node_count_;
   state.w_B = w_B;
   state.zdot = Eigen::Map<const VectorXT<T>>(zdot, mode_count());
-  // delta_i' = Psi_i z'
-  stacked(state.delta_dot).noalias() = shapes_ * state.zdot;
-  state.interface_delta_dot.leftCols(k) =
-      (inverse_root_mass_.asDiagonal() * state.delta_dot.topRows(k)).transpose();
+  std::visit([&](const auto& inertia) { inertia.set_velocity(state); }, inertia_);
   move_frames(state);
-  // bias_i = w x (w x b_i) + 2 w x delta_i', a row for each point
-  const Matrix3T<T> w = skew(w_B), ww = w * w;
-  state.bias.noalias() = state.b.lazyProduct(ww.transpose());
-  state.bias.noalias() += state.delta_dot.lazyProduct(2.0 * w.transpose());
-  // t = sum b_i x bias_i,  h = sum Psi_i^T bias_i + C z' + K z
-  state.t_bias = sum_of_cross_products(state.b, state.bias);
-  state.h_bias.noalias() = shapes_.transpose() * stacked(std::as_const(state.bias));
   add_product(set_.damping, state.zdot, state.h_bias);
   add_product(set_.stiffness, state.z, state.h_bias);
+  if (state.stiffening_z.rows() > 0) add_stiffening(state);
   if (!mean_axes()) {
     const Vector3T<T> c_rate = P_ * state.zdot;
-    state.f_bias = ww * state.c + 2.0 * w_B.cross(c_rate);
+    state.f_bias = w_B.cross(w_B.cross(state.c) + 2.0 * c_rate);
   }
 }
 
+// J - Gamma,  w^T Gamma w = sum_{a <= b} w_a w_b z^T K_ab z
 template <class T>
-void ModalBody::add_product(const MatrixX& matrix, const VectorXT<T>& z, VectorXT<T>& sum) const {
-  if (matrix.cols() == 1)
-    sum += matrix.col(0).cwiseProduct(z);
-  else
-    sum.noalias() += matrix * z;
+void ModalBody::shorten(ModalBodyStateT<T>& state) const {
+  const Eigen::Index m = mode_count();
+  for (int pair = 0; pair < 6; ++pair)
+    state.stiffening_z.col(pair).noalias() = set_.stiffening.middleCols(pair * m, m) * state.z;
+  const Eigen::Matrix<T, 6, 1> moments = state.stiffening_z.transpose().lazyProduct(state.z);
+  state.shortening = symmetric(moments);
+  state.J -= state.shortening;
+}
+
+// t_bias - Gamma' w - w x (Gamma w),   h_bias + sum_{a <= b} w_a w_b K_ab z
+template <class T>
+void ModalBody::add_stiffening(ModalBodyStateT<T>& state) const {
+  const Vector3T<T>& w = state.w_B;
+  const Eigen::Matrix<T, 6, 1> rates = 2.0 * state.stiffening_z.transpose().lazyProduct(state.zdot);
+  const Vector3T<T> momentum = state.shortening * w;
+  state.t_bias -= symmetric(rates) * w + w.cross(momentum);
+  state.h_bias.noalias() += state.stiffening_z.lazyProduct(products_of_components(w));
 }
 
 double ModalBody::kinetic_energy(const Vector3& v_WBo_B, const ModalBodyState& state) const {
-  // sum m_i |w x b_i + delta_i'|^2, point by point: S is not there with the terms of the source
-  const Matrix3 w = skew(state.w_B);
-  return 0.5 * (state.delta_dot - state.b.lazyProduct(w)).squaredNorm() +
+  const double about_origin =
+      std::visit([&](const auto& inertia) { return inertia.energy_about_origin(state); }, inertia_);
+  return about_origin - 0.5 * state.w_B.dot(state.shortening * state.w_B) +
          v_WBo_B.dot(linear_momentum(v_WBo_B, state)) - 0.5 * mass_ * v_WBo_B.squaredNorm();
 }
 
 double ModalBody::elastic_energy(const ModalBodyState& state) const {
-  if (set_.stiffness.cols() == 1) return 0.5 * set_.stiffness.col(0).dot(state.z.cwiseAbs2());
+  if (set_.has_modes()) return 0.5 * set_.stiffness.col(0).dot(state.z.cwiseAbs2());
   return 0.5 * state.z.dot(set_.stiffness.lazyProduct(state.z));
 }
 
@@ -249,7 +212,8 @@ Vector3 ModalBody::linear_momentum(const Vector3& v_WBo_B, const ModalBodyState&
 
 Vector3 ModalBody::angular_momentum(const Vector3& v_WBo_B, const ModalBodyState& state) const {
   // c x v + J w + sum m_i b_i x delta_i'
-  return state.c.cross(v_WBo_B) + state.J * state.w_B + sum_of_cross_products(state.b, state.delta_dot);
+  return state.c.cross(v_WBo_B) + state.J * state.w_B +
+         std::visit([&](const auto& inertia) { return inertia.momentum_of_deflection(state); }, inertia_);
 }
 
 Vector3 ModalBody::deflection(int node_id, const ModalBodyState& state) const {

@@ -1,51 +1,22 @@
 #pragma once
 
-#include <span>
+#include <variant>
 #include <vector>
 
-#include "bodies/interface_frame.h"
+#include "bodies/inertia_invariants.h"
 #include "bodies/mode_set.h"
-#include "bodies/shape_set.h"
+#include "bodies/node_sums.h"
 
 namespace wishbone {
-
-/// Position, velocity and what follows from them of one ModalBody. Made by ModalBody::make_state(), which
-/// sizes every array once. All components are in body axes; b_i = s_i + delta_i and delta_i' are seen from
-/// the body frame.
-template <class T>
-struct ModalBodyStateT {
-  // Position stage, written by set_position().
-  VectorXT<T> z;                        ///< m, modal coordinates [m sqrt(kg)]
-  Matrix3XT<T> interface_b;             ///< 3 x k, p_BoP of each interface [m]
-  Matrix3T<T> J = Matrix3T<T>::Zero();  ///< inertia about Bo of the deformed body, -sum m_i b_i~ b_i~ [kg m2]
-  Matrix3XT<T> S;                       ///< 3 x m, sum m_i b_i~ Psi_i [m sqrt(kg)]
-  Vector3T<T> c = Vector3T<T>::Zero();  ///< sum m_i b_i; zero with mean axes [kg m]
-
-  // Velocity stage, written by set_velocity().
-  VectorXT<T> zdot;                          ///< m [m sqrt(kg)/s]
-  Vector3T<T> w_B = Vector3T<T>::Zero();     ///< angular velocity of the body axes [rad/s]
-  Matrix3XT<T> interface_delta_dot;          ///< 3 x k, velocity in the body axes of each interface [m/s]
-  Vector3T<T> t_bias = Vector3T<T>::Zero();  ///< w x (J w) + 2 sum m_i b_i x (w x delta_i') [N m]
-  Vector3T<T> f_bias = Vector3T<T>::Zero();  ///< w x (w x c) + 2 w x c'; zero with mean axes [N]
-  VectorXT<T> h_bias;  ///< m, sum m_i Psi_i^T (w x (w x b_i) + 2 w x delta_i') + C z' + K z
-
-  /// Of the interfaces that are frames, written in both stages.
-  std::vector<FrameTurnT<T>> turns;
-
-  // Mass-weighted points (rows) used by the sums; see ModalBody.
-  using Points = Eigen::Matrix<T, Eigen::Dynamic, 3>;
-  Points delta;      ///< sqrt(m_i) delta_i
-  Points b;          ///< sqrt(m_i) b_i
-  Points delta_dot;  ///< sqrt(m_i) delta_i'
-  Points bias;       ///< sqrt(m_i) (w x (w x b_i) + 2 w x delta_i')
-};
-using ModalBodyState = ModalBodyStateT<double>;
 
 /// Which inertial coupling between deformation and rotation a flexible body has.
 enum class InertiaTerms {
   consistent,  ///< all that follow from the kinetic energy
   source  ///< S(z) = 0 in both places, as in [5.63, 5.64]: neither energy nor angular momentum is conserved
 };
+
+/// What the inertia of a deformed body is computed from: the same numbers up to rounding, at different cost.
+enum class InertiaMethod { cheaper, node_sums, invariants };
 
 /// Flexible body whose deflections are made of shapes (ShapeSet): normal modes (modal form) or the mass-weighted
 /// displacements of its nodes (nodal form).
@@ -61,11 +32,11 @@ enum class InertiaTerms {
 /// F and N: they leave both momenta as they are, of the deformed body too. Source: docs/theory.md section 3, eqs.
 /// [5.41-5.64], where the source keeps the leading terms only (InertiaTerms::source).
 ///
-/// The sums are taken over mass points in mass-weighted form, sqrt(m_i) b_i and sqrt(m_i) Psi_i, in which m_i
-/// does not appear. The interface nodes are points of their own. All other nodes enter only through second
-/// moments sum (m_i [s_i Psi_i]^T [s_i Psi_i]), and where more than 3 (m + 1) of them remain they are
-/// exchanged for that number of equivalent points with the same moments, so the cost of an evaluation does
-/// not grow with the mesh.
+/// With geometric stiffening (ShapeSet::stiffening) T is less by 1/2 w^T Gamma(z) w, by which the body is shorter when it
+/// bends: J - Gamma stands for J, - Gamma' w - w x (Gamma w) enters t_bias, and K_g(w) z enters h_bias. Nothing is
+/// conserved less for it.
+///
+/// J, S and the biases come from sums over nodes or from inertia invariants, whichever takes fewer operations.
 ///
 /// Joints and forces take hold at interfaces: nodes, which move but do not turn, and frames over several nodes, which
 /// do both (bodies/interface_frame.h). Nodes are numbered first, frames after them.
@@ -75,16 +46,20 @@ class ModalBody {
   /// Throws InputError if the set is not valid (ShapeSet::validate), a node is unknown or named twice, or as
   /// frame_shapes does.
   ModalBody(ShapeSet set, const std::vector<int>& interface_node_ids,
-            const std::vector<InterfaceFrame>& frames = {}, InertiaTerms terms = InertiaTerms::consistent);
+            const std::vector<InterfaceFrame>& frames = {}, InertiaTerms terms = InertiaTerms::consistent,
+            InertiaMethod method = InertiaMethod::cheaper);
   /// @throws InputError as the other, and if the modes are not valid (ModeSet::validate)
   ModalBody(const ModeSet& modes, const std::vector<int>& interface_node_ids,
-            const std::vector<InterfaceFrame>& frames = {}, InertiaTerms terms = InertiaTerms::consistent);
+            const std::vector<InterfaceFrame>& frames = {}, InertiaTerms terms = InertiaTerms::consistent,
+            InertiaMethod method = InertiaMethod::cheaper);
 
   int mode_count() const { return set_.shape_count(); }
   int interface_count() const { return static_cast<int>(interface_shapes_.size()); }
   double mass() const { return mass_; }
   const ShapeSet& set() const { return set_; }
-  InertiaTerms inertia_terms() const { return terms_; }
+  /// What J, S and the biases are computed from, and the multiplications that either takes in an evaluation.
+  InertiaMethod inertia_method() const;
+  double operations(InertiaMethod method) const;
   /// Whether c, P and f_bias vanish.
   bool mean_axes() const { return set_.mean_axes; }
   /// P = sum m_i Psi_i (3 x m), what z'' adds to the linear momentum's rate; empty with mean axes [sqrt(kg)].
@@ -115,7 +90,7 @@ class ModalBody {
   template <class T>
   void set_velocity(const Vector3T<T>& w_B, const T* zdot, ModalBodyStateT<T>& state) const;
 
-  /// 1/2 sum m_i |v_Bo + w x b_i + delta_i'|^2 [J], body components of v_WBo.
+  /// 1/2 sum m_i |v_Bo + w x b_i + delta_i'|^2 - 1/2 w^T Gamma w [J], body components of v_WBo.
   double kinetic_energy(const Vector3& v_WBo_B, const ModalBodyState& state) const;
   /// 1/2 z^T K z [J].
   double elastic_energy(const ModalBodyState& state) const;
@@ -124,20 +99,21 @@ class ModalBody {
   /// Power lost to damping, z'^T C z' >= 0 [W].
   template <class T>
   T damping_power(const ModalBodyStateT<T>& state) const;
-  /// Momentum sum m_i v_i and angular momentum about Bo, sum m_i b_i x v_i, body components [N s, N m s].
+  /// Momentum sum m_i v_i and angular momentum about Bo, sum m_i b_i x v_i - Gamma w, body components [N s, N m s].
   Vector3 linear_momentum(const Vector3& v_WBo_B, const ModalBodyState& state) const;
   Vector3 angular_momentum(const Vector3& v_WBo_B, const ModalBodyState& state) const;
   /// delta_i of any node of the body, body components [m]. Throws InputError if the node is unknown.
   Vector3 deflection(int node_id, const ModalBodyState& state) const;
 
  private:
-  /// + K z and + C z', with matrices or their diagonals.
-  template <class T>
-  void add_product(const MatrixX& matrix, const VectorXT<T>& z, VectorXT<T>& sum) const;
   template <class T>
   void place_frames(ModalBodyStateT<T>& state) const;
   template <class T>
   void move_frames(ModalBodyStateT<T>& state) const;
+  template <class T>
+  void shorten(ModalBodyStateT<T>& state) const;
+  template <class T>
+  void add_stiffening(ModalBodyStateT<T>& state) const;
 
   ShapeSet set_;
   InertiaTerms terms_;
@@ -145,10 +121,8 @@ class ModalBody {
   Matrix3X P_;
   int node_count_ = 0;  ///< of the interfaces that are nodes
   std::vector<Matrix3X> interface_shapes_, frame_rotations_;
-  Matrix3X frame_origins_;     ///< 3 x frames, undeformed [m]
-  VectorX inverse_root_mass_;  ///< 1/sqrt(m_i) of the interface nodes
-  ModalBodyState::Points s_;   ///< p x 3, sqrt(m_i) s_i: the interface nodes first, then the other points
-  MatrixX shapes_;             ///< 3p x m, sqrt(m_i) Psi_i: all x rows, then all y rows, then all z rows
+  Matrix3X frame_origins_;  ///< 3 x frames, undeformed [m]
+  std::variant<NodeSums, InertiaInvariants> inertia_;
 };
 
 }  // namespace wishbone

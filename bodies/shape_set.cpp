@@ -20,18 +20,21 @@ void check_nodes(const ShapeSet& set) {
   if (n < 3)
     throw InputError({"flexible body", "a flexible body needs at least three nodes", fmt::format("{}", n),
                       "give more nodes"});
-  const bool fits = set.node_mass.size() == n && set.node_position.cols() == n &&
-                    set.shapes.rows() == 3 * n && is_square_or_diagonal(set.stiffness, m) &&
-                    is_square_or_diagonal(set.damping, m);
+  const bool fits =
+      set.node_mass.size() == n && set.node_position.cols() == n && set.shapes.rows() == 3 * n &&
+      is_square_or_diagonal(set.stiffness, m) && is_square_or_diagonal(set.damping, m) &&
+      (set.stiffening.size() == 0 || (set.stiffening.rows() == m && set.stiffening.cols() == 6 * m));
   if (!fits)
     throw InputError(
         {"flexible body",
          fmt::format("{} nodes and {} shapes need {} masses and positions, {} x {} shapes, stiffness and "
-                     "damping of {} rows",
-                     n, m, n, 3 * n, m, m),
-         fmt::format("{} masses, {} positions, {} x {} shapes, stiffness {} x {}, damping {} x {}",
+                     "damping of {} rows, and {} x {} of stiffening if there is any",
+                     n, m, n, 3 * n, m, m, m, 6 * m),
+         fmt::format("{} masses, {} positions, {} x {} shapes, stiffness {} x {}, damping {} x {}, "
+                     "stiffening {} x {}",
                      set.node_mass.size(), set.node_position.cols(), set.shapes.rows(), set.shapes.cols(),
-                     set.stiffness.rows(), set.stiffness.cols(), set.damping.rows(), set.damping.cols()),
+                     set.stiffness.rows(), set.stiffness.cols(), set.damping.rows(), set.damping.cols(),
+                     set.stiffening.rows(), set.stiffening.cols()),
          "give every node and every shape its row and column"});
   if (static_cast<Eigen::Index>(std::set<int>(set.node_ids.begin(), set.node_ids.end()).size()) != n)
     throw InputError(
@@ -42,8 +45,9 @@ void check_nodes(const ShapeSet& set) {
                         fmt::format("{:g} kg", set.node_mass[i]),
                         "leave massless nodes out, or lump the mass so that every node has its share"});
   if (!set.shapes.allFinite() || !set.node_position.allFinite() || !set.stiffness.allFinite() ||
-      !set.damping.allFinite())
-    throw InputError({"flexible body", "shapes, positions, stiffness and damping must be finite numbers",
+      !set.damping.allFinite() || !set.stiffening.allFinite())
+    throw InputError({"flexible body",
+                      "shapes, positions, stiffness, damping and stiffening must be finite numbers",
                       "an infinity or not a number", "check how they were read"});
 }
 
@@ -79,7 +83,7 @@ void check_orthogonality(const ShapeSet& set) {
 }
 
 void check_symmetry(const MatrixX& matrix, const char* name) {
-  if (matrix.cols() == 1) return;
+  if (matrix.cols() <= 1) return;
   const double asymmetry = (matrix - matrix.transpose()).norm();
   if (!(asymmetry <= ModeSet::kOrthogonalityTolerance * matrix.norm()))
     throw InputError({"flexible body", fmt::format("the {} must be symmetric", name),
@@ -103,6 +107,9 @@ void ShapeSet::validate() const {
   check_orthogonality(*this);
   check_symmetry(stiffness, "stiffness");
   check_symmetry(damping, "damping");
+  if (stiffening.size() == 0) return;
+  const Eigen::Index m = shape_count();
+  for (int pair = 0; pair < 6; ++pair) check_symmetry(stiffening.middleCols(pair * m, m), "stiffening");
 }
 
 ShapeSet shapes_of(const ModeSet& modes) {

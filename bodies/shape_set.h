@@ -20,6 +20,9 @@ struct ShapeSet {
   MatrixX shapes;             ///< 3n x m, Phi, rows node by node in x, y, z [1/sqrt(kg)]
   MatrixX stiffness;          ///< m x m, or m x 1: the diagonal [1/s^2]
   MatrixX damping;            ///< m x m, or m x 1: the diagonal [1/s]
+  /// m x 6m, side by side the symmetric K_ab, ab = xx, yy, zz, xy, xz, yz, of the stiffness that the stresses of a spin with
+  /// angular velocity w (body axes) add, K_g(w) = sum_{a <= b} w_a w_b K_ab; empty: none. Dimensionless.
+  MatrixX stiffening;
   bool mean_axes = true;
 
   int node_count() const { return static_cast<int>(node_ids.size()); }
@@ -32,8 +35,8 @@ struct ShapeSet {
   int node_index(int node_id) const;
 
   /// @throws InputError, with the figure that is wrong, unless the sizes fit, masses are positive, positions are taken about
-  /// the mass centre, the shapes are mass-orthonormal, with mean axes orthogonal to rigid motion, and stiffness and damping
-  /// are symmetric
+  /// the mass centre, the shapes are mass-orthonormal, with mean axes orthogonal to rigid motion, and stiffness, damping and
+  /// stiffening are symmetric
   void validate() const;
 };
 

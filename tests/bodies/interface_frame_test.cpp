@@ -17,14 +17,13 @@ namespace {
 using testing::HasSubstr;
 
 /// Six nodes anywhere, whose deflections are what `shapes` says; nothing else of the set is used.
-ModeSet nodes_with(MatrixX shapes) {
-  ModeSet set;
+ShapeSet nodes_with(MatrixX shapes) {
+  ShapeSet set;
   set.node_ids = {11, 12, 13, 14, 15, 16};
   set.node_position.resize(3, 6);
   set.node_position << 0.3, -0.2, 0.5, 0.1, -0.4, 0.2,  //
       1.1, 0.9, 1.4, 1.0, 1.2, 0.7,                     //
       -0.1, 0.2, 0.1, -0.3, 0.4, 0.6;
-  set.omega = VectorX::Ones(shapes.cols());
   set.shapes = std::move(shapes);
   return set;
 }
@@ -37,7 +36,7 @@ VectorX some_numbers(Eigen::Index count, unsigned seed) {
 }
 
 TEST(InterfaceFrame, FollowsARigidMotionOfItsNodesExactly) {
-  const ModeSet bare = nodes_with(MatrixX::Zero(18, 1));
+  const ShapeSet bare = nodes_with(MatrixX::Zero(18, 1));
   MatrixX rigid(18, 6);
   for (int i = 0; i < 6; ++i)
     rigid.middleRows<3>(3 * i) << Matrix3::Identity(), -skew(bare.node_position.col(i));
@@ -50,7 +49,7 @@ TEST(InterfaceFrame, FollowsARigidMotionOfItsNodesExactly) {
 }
 
 TEST(InterfaceFrame, FitsTheDeflectionsOfItsNodesInTheLeastSquaresSense) {
-  const ModeSet set = nodes_with(some_numbers(18, 1));
+  const ShapeSet set = nodes_with(some_numbers(18, 1));
   const FrameShapes frame = frame_shapes(kHub, set);
   const auto misfit = [&](const Vector3& u, const Vector3& phi) {
     double sum = 0;
@@ -77,7 +76,7 @@ TEST(InterfaceFrame, SpreadsForceAndMomentOverItsNodesWithTheSameResultants) {
   const FrameShapes frame = frame_shapes(kHub, nodes_with(MatrixX::Identity(18, 18)));
   const Vector3 f(3, -7, 2), t(0.4, 1.1, -0.9);
   const VectorX nodal = frame.translation.transpose() * f + frame.rotation.transpose() * t;
-  const ModeSet set = nodes_with(MatrixX::Zero(18, 1));
+  const ShapeSet set = nodes_with(MatrixX::Zero(18, 1));
   Vector3 force = Vector3::Zero(), moment = Vector3::Zero();
   for (int i = 0; i < 6; ++i) {
     const Vector3 f_i = nodal.segment<3>(3 * i);
