@@ -28,7 +28,8 @@ InertiaInvariants::InertiaInvariants(const ShapeSet& set, const std::vector<int>
       symmetric_(6 * (m_ + 1), m_ + 1),
       skew_(3 * m_, m_ + 1) {
   for (std::size_t i = 0; i < interface_nodes.size(); ++i)
-    interface_.middleRows<3>(3 * static_cast<Eigen::Index>(i)) = set.shapes.middleRows<3>(3 * interface_nodes[i]);
+    interface_.middleRows<3>(3 * static_cast<Eigen::Index>(i)) =
+        set.shapes.middleRows<3>(3 * interface_nodes[i]);
 
   const std::array<MatrixX, 3> P{mass_weighted(set, 0), mass_weighted(set, 1), mass_weighted(set, 2)};
   for (int pair = 0; pair < 6; ++pair) {

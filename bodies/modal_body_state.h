@@ -50,7 +50,8 @@ struct ModalBodyStateT {
 
   // Geometric stiffening (ShapeSet::stiffening).
   Eigen::Matrix<T, Eigen::Dynamic, 6> stiffening_z;  ///< K_ab z for ab = xx, yy, zz, xy, xz, yz
-  Matrix3T<T> shortening = Matrix3T<T>::Zero();  ///< Gamma(z), by which J is less than that of the points [kg m2]
+  Matrix3T<T> shortening =
+      Matrix3T<T>::Zero();  ///< Gamma(z), by which J is less than that of the points [kg m2]
 
   // Whichever of the two the body uses.
   NodePointsT<T> points;

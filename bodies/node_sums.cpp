@@ -57,8 +57,7 @@ MatrixX mass_weighted_rows(const ShapeSet& set, std::span<const int> nodes) {
   for (Eigen::Index r = 0; r < rows.rows(); ++r) {
     const int i = nodes[r];
     rows.row(r).head<3>() = set.node_position.col(i).transpose();
-    for (int axis = 0; axis < 3; ++axis)
-      rows.row(r).segment(3 + axis * m, m) = set.shapes.row(3 * i + axis);
+    for (int axis = 0; axis < 3; ++axis) rows.row(r).segment(3 + axis * m, m) = set.shapes.row(3 * i + axis);
     rows.row(r) *= std::sqrt(set.node_mass[i]);
   }
   return rows;

@@ -37,11 +37,11 @@ class NodeSums {
   Vector3 momentum_of_deflection(const ModalBodyState& state) const;
 
  private:
-  Eigen::Index node_count_;            ///< interface nodes
+  Eigen::Index node_count_;  ///< interface nodes
   bool mean_axes_;
-  VectorX inverse_root_mass_;          ///< 1/sqrt(m_i) of the interface nodes
-  NodePointsT<double>::Points s_;      ///< p x 3, sqrt(m_i) s_i: the interface nodes first, then the other points
-  MatrixX shapes_;                     ///< 3p x m, sqrt(m_i) Psi_i: all x rows, then all y rows, then all z rows
+  VectorX inverse_root_mass_;      ///< 1/sqrt(m_i) of the interface nodes
+  NodePointsT<double>::Points s_;  ///< p x 3, sqrt(m_i) s_i: the interface nodes first, then the other points
+  MatrixX shapes_;                 ///< 3p x m, sqrt(m_i) Psi_i: all x rows, then all y rows, then all z rows
 };
 
 }  // namespace wishbone

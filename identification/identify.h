@@ -1,10 +1,12 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "identification/elements/hexahedral_mesh.h"
 #include "identification/judgement/judgement.h"
 #include "identification/judgement/monte_carlo.h"
 #include "identification/methods/design_change.h"
@@ -38,13 +40,20 @@ struct StructureChange {
   bool empty() const { return masses.empty() && springs.empty() && !dM && !dK; }
 };
 
+/// Elements of one material.
+struct MeshedBody {
+  HexahedralMesh mesh;
+  IsotropicMaterial material;
+};
+
 /// A finite-element model of the structure, three freedoms a node, free.
 struct AnalyticalModel {
   std::vector<int> node_ids;
-  Matrix3X node_position;                 ///< 3 x n [m]
-  VectorX node_mass;                      ///< n [kg]; empty when M is not lumped
-  SparseMatrix M, K;                      ///< 3n x 3n [kg], [N/m]
-  std::vector<std::array<int, 2>> lines;  ///< to draw it by
+  Matrix3X node_position;                                ///< 3 x n [m]
+  VectorX node_mass;                                     ///< n [kg]; empty when M is not lumped
+  SparseMatrix M, K;                                     ///< 3n x 3n [kg], [N/m]
+  std::vector<std::array<int, 2>> lines;                 ///< to draw it by
+  std::shared_ptr<const MeshedBody> elements = nullptr;  ///< null: the matrices are all that is known
 
   std::vector<Freedom> freedoms() const { return all_freedoms(node_ids); }
 };

@@ -66,13 +66,27 @@ class Compiler {
   ShapeSet shapes_of(int number) {
     const Scene::Body& body = scene_.bodies[static_cast<std::size_t>(number)];
     const ModeSet modes = modes_.modes_of(number);
-    return within(body.where, [&] {
+    ShapeSet set = within(body.where, [&] {
       modes.validate();
       if (body.form == Scene::BodyForm::kModal) return wishbone::shapes_of(modes);
       const NodalModel model = nodal_model(modes);
       const auto& axes = body.flexible->fixed_axes;
       return axes ? fixed_axis_shapes(model, *axes) : mean_axis_shapes(model);
     });
+    set.stiffening = in_shapes(modes_.stiffening_of(number, modes), modes, set);
+    return set;
+  }
+
+  /// Matrices over the modes side by side, over the shapes: with z_modes = Psi^T M Phi z = T z these are T^T K T.
+  static MatrixX in_shapes(const MatrixX& matrices, const ModeSet& modes, const ShapeSet& set) {
+    if (matrices.size() == 0) return {};
+    const VectorX mass = modes.node_mass.transpose().replicate(3, 1).reshaped();
+    const MatrixX T = modes.shapes.transpose() * mass.asDiagonal() * set.shapes;
+    const Eigen::Index m = T.rows(), n = T.cols();
+    MatrixX result(n, 6 * n);
+    for (int pair = 0; pair < 6; ++pair)
+      result.middleCols(pair * n, n) = T.transpose() * matrices.middleCols(pair * m, m) * T;
+    return result;
   }
 
   MarkerIndex marker(const Scene::Point& point) {

@@ -5,6 +5,7 @@
 #include "core/yaml.h"
 #include "identification/flexible_modes.h"
 #include "identification/mode_set_of.h"
+#include "identification/spin_stiffening.h"
 #include "models/identification_sections.h"
 #include "models/interface_nodes.h"
 
@@ -82,6 +83,20 @@ ModeSet ModeCompiler::modes_of(int index) {
   set_damping(body, modes.set);
   tables.push_back({body.name, std::move(choice), mode_table(modes.set, modes.kinds, interfaces)});
   return std::move(modes.set);
+}
+
+MatrixX ModeCompiler::stiffening_of(int index, const ModeSet& modes) const {
+  const Scene::Body& body = scene_.bodies[static_cast<std::size_t>(index)];
+  const Scene::Flexible& flexible = *body.flexible;
+  if (!flexible.stiffening) return {};
+  SpinLoad load{flexible.stiffening->held, std::nullopt};
+  if (const auto& centre = flexible.stiffening->centre_D) load.centre = body.X_DB.inverse() * *centre;
+  return within(body.where, [&] {
+    if (flexible.model)
+      return spin_stiffening(flexible.model->elements->mesh, flexible.model->elements->material, modes, load);
+    const Scene::Block& b = *flexible.block;
+    return spin_stiffening(make_block(b.size, b.elements), {b.young, b.poisson, b.density}, modes, load);
+  });
 }
 
 }  // namespace wishbone

@@ -31,6 +31,9 @@ class ModeCompiler {
   /// Modes of a body (index into `Scene::bodies`) with their damping.
   /// @throws InputError naming the place in the scene file
   ModeSet modes_of(int body);
+  /// Geometric stiffening of these modes (ShapeSet::stiffening); empty where the scene asks for none.
+  /// @throws InputError likewise
+  MatrixX stiffening_of(int body, const ModeSet& modes) const;
 
   std::vector<IdentifiedBody> identified;  ///< so far
   std::vector<BodyModes> tables;           ///< so far

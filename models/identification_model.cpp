@@ -24,6 +24,7 @@ AnalyticalModel mesh_model(const HexahedralMesh& mesh, const IsotropicMaterial& 
   model.M = lumped_mass_matrix(model.node_mass);
   model.K = stiffness_matrix(mesh, material);
   model.lines = element_edges(mesh);
+  model.elements = std::make_shared<const MeshedBody>(MeshedBody{mesh, material});
   return model;
 }
 

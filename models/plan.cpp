@@ -25,15 +25,38 @@ void sort_into(bool needed, std::string kept, std::string left_out, Plan& plan) 
   needed ? plan.kept.push_back(std::move(kept)) : plan.left_out.push_back(std::move(left_out));
 }
 
+/// Which of the two ways to its inertia a body takes, and what both would cost.
+std::string inertia_line(const System& system, const FlexibleBody& body) {
+  const ModalBody& modal = body.modal;
+  const bool sums = modal.inertia_method() == InertiaMethod::node_sums;
+  return fmt::format("inertia of {} by {}: {:g} multiplications an evaluation ({} {:g})",
+                     system.bodies[body.body].name, sums ? "node sums" : "invariants",
+                     modal.operations(modal.inertia_method()), sums ? "invariants" : "node sums",
+                     modal.operations(sums ? InertiaMethod::invariants : InertiaMethod::node_sums));
+}
+
+void list_flexible_parts(const System& system, Plan& plan) {
+  sort_into(plan.elastic_coordinates > 0, fmt::format("elastic terms of {} modes", plan.elastic_coordinates),
+            "elastic terms: no flexible body", plan);
+  if (plan.elastic_coordinates == 0) return;
+  bool damped = false;
+  std::string stiffened;
+  for (const FlexibleBody& body : system.flexible) {
+    const ShapeSet& set = body.modal.set();
+    damped = damped || set.damped();
+    if (set.stiffening.size() > 0)
+      stiffened += (stiffened.empty() ? "" : ", ") + system.bodies[body.body].name;
+    plan.kept.push_back(inertia_line(system, body));
+  }
+  sort_into(damped, "structural damping", "structural damping: every damping ratio is zero", plan);
+  sort_into(!stiffened.empty(), "geometric stiffening of " + stiffened,
+            "geometric stiffening: no body asks for it", plan);
+}
+
 void list_parts(const System& system, Plan& plan) {
   const auto& [springs, tires, loads, joint_springs, joint_frictions, joint_limits, joint_drives] =
       system.forces;
-  sort_into(plan.elastic_coordinates > 0, fmt::format("elastic terms of {} modes", plan.elastic_coordinates),
-            "elastic terms: no flexible body", plan);
-  bool damped = false;
-  for (const FlexibleBody& body : system.flexible) damped = damped || body.modal.set().damped();
-  if (plan.elastic_coordinates > 0)
-    sort_into(damped, "structural damping", "structural damping: every damping ratio is zero", plan);
+  list_flexible_parts(system, plan);
   sort_into(!plan.closures.empty(), fmt::format("closure solver for {} rows", plan.closure_rows),
             "closure solver and projection: no cut joint", plan);
   sort_into(plan.prescribed > 0, fmt::format("{} prescribed motions", plan.prescribed),

@@ -63,6 +63,12 @@ struct Scene {
         Vector3::Zero();  ///< weighted centre of the nodes, body axes, from the mass centre [m]
   };
 
+  /// Geometric stiffening by spin about `centre_D` of a body held at nodes.
+  struct Stiffening {
+    std::vector<int> held;            ///< nodes; none: free
+    std::optional<Vector3> centre_D;  ///< [m]; by default that of the held nodes
+  };
+
   /// Nodes of a body and where its elastic modes come from: a block, a model, or an identification.
   struct Flexible {
     std::vector<int> node_ids;
@@ -80,6 +86,7 @@ struct Scene {
     std::optional<FixedAxes> fixed_axes;  ///< node ids; empty: mean axes
     bool source_terms = false;            ///< inertial coupling as in the source, not all that there is
     std::vector<Frame> frames;
+    std::optional<Stiffening> stiffening;
   };
 
   enum class BodyForm { kRigid, kModal, kNodal };

@@ -75,6 +75,14 @@ ModeChoice read_choice(const Value& value, int elastic) {
   return read_list(keys.required("list"), elastic);
 }
 
+/// A node of the body.
+int read_node(const Value& value, const std::vector<int>& node_ids) {
+  const int node = value.integer(std::numeric_limits<int>::min(), std::numeric_limits<int>::max());
+  if (std::find(node_ids.begin(), node_ids.end(), node) == node_ids.end())
+    value.refuse("the body has no such node", identification_sections::nodes_text(node_ids));
+  return node;
+}
+
 /// `interfaces`, or a list of nodes of the body.
 Scene::StaticNodes read_static_nodes(const Value& value, const Scene::Flexible& flexible) {
   if (value.is_word("interfaces")) return {true, {}};
@@ -82,10 +90,7 @@ Scene::StaticNodes read_static_nodes(const Value& value, const Scene::Flexible& 
     value.refuse("the nodes are neither 'interfaces' nor a list", "write 'interfaces', or [1, 2, 3]");
   Scene::StaticNodes nodes;
   for (const Value& item : value.list()) {
-    const int id = item.integer(std::numeric_limits<int>::min(), std::numeric_limits<int>::max());
-    const std::vector<int>& ids = flexible.node_ids;
-    if (std::find(ids.begin(), ids.end(), id) == ids.end())
-      item.refuse("the body has no such node", identification_sections::nodes_text(ids));
+    const int id = read_node(item, flexible.node_ids);
     if (std::find(nodes.ids.begin(), nodes.ids.end(), id) != nodes.ids.end())
       item.refuse("a node is listed twice", "list each node once");
     nodes.ids.push_back(id);
@@ -214,9 +219,7 @@ Scene::Frame read_frame(const std::string& name, const Value& value, const Scene
   const Mapping keys(value, {"nodes", "weights"});
   const Value nodes = keys.required("nodes");
   for (const Value& item : nodes.list()) {
-    const int node = item.integer(std::numeric_limits<int>::min(), std::numeric_limits<int>::max());
-    if (place(node) == flexible.node_ids.end())
-      item.refuse("the body has no such node", identification_sections::nodes_text(flexible.node_ids));
+    const int node = read_node(item, flexible.node_ids);
     if (std::find(frame.nodes.begin(), frame.nodes.end(), node) != frame.nodes.end())
       item.refuse("the frame has this node already", "name each node once; weights let some count more");
     frame.nodes.push_back(node);
@@ -257,11 +260,29 @@ std::optional<Scene::FixedAxes> read_axes(const Value& value, const std::vector<
   return nodes;
 }
 
+/// `free`, or {held: [node, ...], centre: [x, y, z]}.
+Scene::Stiffening read_stiffening(const Value& value, const Scene::Flexible& flexible) {
+  if (!flexible.block && !(flexible.model && flexible.model->elements))
+    value.refuse("geometric stiffening needs the stresses in the elements of the body",
+                 "take its modes from a block or from listed hexahedra, or remove the key");
+  if (flexible.identification)
+    value.refuse("geometric stiffening needs the stresses of modes of a model, and these are identified",
+                 "take the modes of the block or model, or remove the key");
+  Scene::Stiffening stiffening;
+  if (value.is_word("free")) return stiffening;
+  const Mapping keys(value, {"held", "centre"});
+  const Value held = keys.required("held");
+  for (const Value& item : held.list()) stiffening.held.push_back(read_node(item, flexible.node_ids));
+  if (stiffening.held.empty()) held.refuse("there are no nodes in the list", "name some, or write 'free'");
+  if (const auto centre = keys.optional("centre")) stiffening.centre_D = centre->vector3(kLength);
+  return stiffening;
+}
+
 }  // namespace
 
 Scene::Flexible read_flexible(const Value& value, Scene& scene) {
   const Mapping keys(value, {"block", "material", "model", "modes", "below", "attachment", "constraint",
-                             "damping", "axes", "inertia", "frames"});
+                             "damping", "axes", "inertia", "frames", "stiffening"});
   Scene::Flexible flexible;
   const Value modes = keys.required("modes");
   const bool identified = modes.is_mapping() && !has_any(modes, {"lowest", "below", "list"});
@@ -279,6 +300,8 @@ Scene::Flexible read_flexible(const Value& value, Scene& scene) {
   if (const auto frames = keys.optional("frames"))
     for (const auto& [name, frame] : frames->named())
       flexible.frames.push_back(read_frame(name, frame, flexible));
+  if (const auto stiffening = keys.optional("stiffening"))
+    flexible.stiffening = read_stiffening(*stiffening, flexible);
   if (const auto axes = keys.optional("axes")) flexible.fixed_axes = read_axes(*axes, flexible.node_ids);
   if (const auto inertia = keys.optional("inertia"))
     flexible.source_terms =

@@ -113,4 +113,18 @@ Hexahedron::Stiffness Hexahedron::stiffness(const Matrix6& elasticity) const {
   return K;
 }
 
+Eigen::Matrix<double, 8, 8> Hexahedron::stress_stiffness(const Matrix6& elasticity,
+                                                         const Displacement& u) const {
+  Eigen::Matrix<double, 8, 8> K = Eigen::Matrix<double, 8, 8>::Zero();
+  for (int point = 0; point < 8; ++point) {
+    double determinant = 0;
+    const Gradients g = shape_gradients(gauss_point(point), &determinant);
+    const Eigen::Matrix<double, 6, 1> s = elasticity * (strain_operator(gauss_point(point)) * u);
+    Matrix3 sigma;
+    sigma << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+    K.noalias() += g.transpose() * (determinant * sigma * g);
+  }
+  return K;
+}
+
 }  // namespace wishbone

@@ -28,6 +28,7 @@ class Hexahedron {
   using Corners = Eigen::Matrix<double, 3, 8>;
   using StrainOperator = Eigen::Matrix<double, 6, 24>;
   using Stiffness = Eigen::Matrix<double, 24, 24>;
+  using Displacement = Eigen::Matrix<double, 24, 1>;
 
   /// `corners` [m] as columns; `id` is the element's name in error messages.
   /// Throws InputError if the Jacobian determinant is not positive at every Gauss point.
@@ -42,6 +43,11 @@ class Hexahedron {
 
   /// K = int B-bar^T D B-bar dV [N/m], with D the material's elasticity.
   Stiffness stiffness(const Matrix6& elasticity) const;
+
+  /// What the stress sigma of a small displacement u, sigma = D B-bar u, adds to the stiffness against each of the three
+  /// translations of the corners (8 x 8), K_AB = int (dN_A/dx)^T sigma (dN_B/dx) dV [N/m]: the stress stiffness of the
+  /// von Karman strains. Source: T. Belytschko, W. K. Liu, B. Moran, Nonlinear Finite Elements, 2000, section 6.4.
+  Eigen::Matrix<double, 8, 8> stress_stiffness(const Matrix6& elasticity, const Displacement& u) const;
 
  private:
   using Gradients = Eigen::Matrix<double, 3, 8>;

@@ -63,17 +63,17 @@ ModalBodyState state_of(const ModalBody& body, const Motion& motion) {
 
 Accelerations::Accelerations(const ModalBody& body, const ModalBodyState& state, const Vector3& force,
                              const Vector3& moment, const VectorX& modal_load) {
-    const int m = body.mode_count();
-    const Matrix3X P = body.mean_axes() ? Matrix3X(Matrix3X::Zero(3, m)) : body.momentum_shape();
-    MatrixX M(6 + m, 6 + m);
-    M << body.mass() * Matrix3::Identity(), -skew(state.c), P, skew(state.c), state.J, state.S, P.transpose(),
-        state.S.transpose(), MatrixX::Identity(m, m);
-    VectorX r(6 + m);
-    r << force - state.f_bias, moment - state.t_bias, modal_load - state.h_bias;
-    const VectorX rates = M.llt().solve(r);
-    a = rates.head<3>();
-    alpha = rates.segment<3>(3);
-    zddot = rates.tail(m);
+  const int m = body.mode_count();
+  const Matrix3X P = body.mean_axes() ? Matrix3X(Matrix3X::Zero(3, m)) : body.momentum_shape();
+  MatrixX M(6 + m, 6 + m);
+  M << body.mass() * Matrix3::Identity(), -skew(state.c), P, skew(state.c), state.J, state.S, P.transpose(),
+      state.S.transpose(), MatrixX::Identity(m, m);
+  VectorX r(6 + m);
+  r << force - state.f_bias, moment - state.t_bias, modal_load - state.h_bias;
+  const VectorX rates = M.llt().solve(r);
+  a = rates.head<3>();
+  alpha = rates.segment<3>(3);
+  zddot = rates.tail(m);
 }
 
 }  // namespace wishbone::flexible_forms

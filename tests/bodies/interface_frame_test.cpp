@@ -90,7 +90,7 @@ TEST(InterfaceFrame, SpreadsForceAndMomentOverItsNodesWithTheSameResultants) {
 
 TEST(InterfaceFrame, NeedsThreeNodesThatSpanAPlane) {
   const auto complaint = [](InterfaceFrame frame) -> std::string {
-    ModeSet set = nodes_with(MatrixX::Zero(18, 1));
+    ShapeSet set = nodes_with(MatrixX::Zero(18, 1));
     set.node_position.col(3) = 0.25 * set.node_position.col(0) + 0.75 * set.node_position.col(1);
     try {
       frame_shapes(frame, set);
@@ -120,7 +120,7 @@ TEST(ModalBody, PlacesAndMovesItsFramesAfterItsNodes) {
   ASSERT_EQ(body.interface_count(), 2);
   EXPECT_FALSE(body.interface_turns(0));
   ASSERT_TRUE(body.interface_turns(1));
-  const FrameShapes shapes = frame_shapes(end, modes);
+  const FrameShapes shapes = frame_shapes(end, shapes_of(modes));
   ModalBodyState state = body.make_state();
   const VectorX z = some_numbers(8, 2), z_rate = some_numbers(8, 3);
   body.set_position(z.data(), state);

@@ -7,7 +7,7 @@
 namespace wishbone {
 namespace {
 
-constexpr double kRounding = 1e-14;
+constexpr double kTurnRounding = 1e-14;
 
 const Vector3 kAxis = Vector3(2, -1, 0.5).normalized();
 const Vector3 kRate(0.7, 1.9, -1.3);
@@ -26,7 +26,7 @@ auto rate_of(const Eigen::MatrixBase<D>& m) {
 
 TEST(RotationVector, TurnsAboutItsAxisByItsLength) {
   for (const double angle : kAngles)
-    EXPECT_LT((RotationVector<double>(angle * kAxis).R - rotation_about(kAxis, angle)).norm(), kRounding)
+    EXPECT_LT((RotationVector<double>(angle * kAxis).R - rotation_about(kAxis, angle)).norm(), kTurnRounding)
         << angle;
 }
 

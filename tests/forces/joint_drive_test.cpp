@@ -11,12 +11,12 @@ namespace {
 
 using testing::hinge;
 
-Function expression(const std::string& text) {
+Function expression_of(const std::string& text) {
   return Function(Expression(text, {"t", "rate"}));
 }
 
 TEST(JointDrive, PositiveTorqueTurnsTheSecondForwardAndTheFirstBack) {
-  const JointDrive motor("motor", 0, 1, {Gauge::Kind::rotation}, expression("3*t - 2*rate"));
+  const JointDrive motor("motor", 0, 1, {Gauge::Kind::rotation}, expression_of("3*t - 2*rate"));
   const std::vector<MarkerState> markers = hinge(0.4, 1);
   const std::vector<double> variables{2, 0.5};
   std::vector<Wrench> wrenches(2);

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "identification/free_free_modes.h"
+#include "identification/measured.h"
 #include "identification/methods/attachment_modes.h"
 #include "identification/methods/modes_below.h"
 #include "identification/mode_table.h"
@@ -16,16 +17,6 @@
 
 namespace wishbone {
 namespace {
-
-AnalyticalModel model_of(const TestStructure& s) {
-  AnalyticalModel model;
-  model.node_ids = s.node_ids;
-  model.node_position = s.nodes;
-  model.node_mass = s.node_mass;
-  model.M = s.M;
-  model.K = s.K;
-  return model;
-}
 
 /// 6 x 5 x 7 nodes without symmetry, 630 freedoms: beyond the size of dense eigenproblems.
 TestStructure large_block() {

@@ -18,12 +18,12 @@ using testing::residual;
 using testing::Scene;
 using testing::velocity_rows;
 
-constexpr Gauge kAngle{Gauge::Kind::rotation};
+constexpr Gauge kTurn{Gauge::Kind::rotation};
 constexpr Gauge kTravel{Gauge::Kind::translation, 0};
 
 TEST(Coupling, GearsTurnInTheRatioOfTheirTeethThroughManyTurns) {
   // 20 and 60 teeth outside each other: 20 u1 + 60 u2 = 0
-  const CutJoint gears = CouplingClosure("gears", {{kAngle, 20}, {kAngle, 60}});
+  const CutJoint gears = CouplingClosure("gears", {{kTurn, 20}, {kTurn, 60}});
   ASSERT_EQ(participant_count(gears), 4);
   ASSERT_EQ(gauge_count(gears), 2);
   EXPECT_TRUE(row_is_angle(gears, 0));
@@ -37,7 +37,7 @@ TEST(Coupling, GearsTurnInTheRatioOfTheirTeethThroughManyTurns) {
 
 TEST(Coupling, PinionDrivesTheRackByItsRadius) {
   const double radius = 0.02;
-  const CutJoint rack = CouplingClosure("rack", {{kTravel, 1}, {kAngle, -radius}}, 0.1);
+  const CutJoint rack = CouplingClosure("rack", {{kTravel, 1}, {kTurn, -radius}}, 0.1);
   EXPECT_FALSE(row_is_angle(rack, 0));
   std::vector<MarkerState> markers(4);
   markers[1].p_WM = Vector3(0.1 + radius * 1.5, 7, 8);
@@ -53,7 +53,7 @@ TEST(Coupling, RatesAndAccelerationsFollowFromItsGauges) {
   Random random(31);
   const CutJoint mixer = CouplingClosure(
       "mixer",
-      {{kTravel, 1.5}, {kAngle, -0.2}, {{Gauge::Kind::distance}, 0.7}, {{Gauge::Kind::translation, 2}, -1}});
+      {{kTravel, 1.5}, {kTurn, -0.2}, {{Gauge::Kind::distance}, 0.7}, {{Gauge::Kind::translation, 2}, -1}});
   for (int i = 0; i < 20; ++i) {
     Scene scene = testing::random_scene(mixer, random);
     // the law of the rate holds with aligned axes
@@ -68,9 +68,9 @@ TEST(Coupling, RatesAndAccelerationsFollowFromItsGauges) {
 TEST(Coupling, RejectsWhatCouplesNothing) {
   const double infinity = std::numeric_limits<double>::infinity();
   EXPECT_THROW(CouplingClosure("gears", {}), InputError);
-  EXPECT_THROW(CouplingClosure("gears", {{kAngle, 1}, {kAngle, 0}}), InputError);
-  EXPECT_THROW(CouplingClosure("gears", {{kAngle, infinity}}), InputError);
-  EXPECT_THROW(CouplingClosure("gears", {{kAngle, 1}}, infinity), InputError);
+  EXPECT_THROW(CouplingClosure("gears", {{kTurn, 1}, {kTurn, 0}}), InputError);
+  EXPECT_THROW(CouplingClosure("gears", {{kTurn, infinity}}), InputError);
+  EXPECT_THROW(CouplingClosure("gears", {{kTurn, 1}}, infinity), InputError);
   const CutJoint rope =
       CouplingClosure("rope", {{{Gauge::Kind::distance}, 1}, {{Gauge::Kind::distance}, 1}}, 3);
   EXPECT_THROW(residual(rope, 0, std::vector<MarkerState>(4), {0, 0}), NumericsError);

@@ -21,7 +21,7 @@ TEST_P(BrokenIdentifications, AreRefusedWithPlaceValueAndRemedy) {
   EXPECT_EQ(files.relative(message_of<InputError>([&] { load_identification(file); })), GetParam().message);
 }
 
-constexpr Broken kCatalogue[] = {
+constexpr Broken kBrokenIdentifications[] = {
     Broken{"MisspeltKey", "  support:", "  suport:",
            "frame.yaml:7:3: identification: error: unknown key 'suport'\n"
            "  did you mean 'support'?"},
@@ -305,7 +305,7 @@ constexpr Broken kCatalogue[] = {
            "  give one of them"},
 };
 
-INSTANTIATE_TEST_SUITE_P(Catalogue, BrokenIdentifications, testing::ValuesIn(kCatalogue),
+INSTANTIATE_TEST_SUITE_P(Catalogue, BrokenIdentifications, testing::ValuesIn(kBrokenIdentifications),
                          [](const auto& broken) { return std::string(broken.param.name); });
 
 }  // namespace

@@ -75,7 +75,7 @@ TEST_P(BrokenScenes, AreRefusedWithPlaceValueAndRemedy) {
   EXPECT_EQ(files.relative(message_of<InputError>([&] { load_scene(file); })), GetParam().message);
 }
 
-constexpr Broken kCatalogue[] = {
+constexpr Broken kBrokenScenes[] = {
     Broken{"MisspeltKey", "mass: 2 kg", "mas: 2 kg",
            "scene.yaml:7:5: bodies.arm: error: unknown key 'mas'\n"
            "  did you mean 'mass'?"},
@@ -555,7 +555,7 @@ constexpr Broken kCatalogue[] = {
            "scene.yaml:4:7: parameters.pi: error: 'pi' is a constant, not a parameter\n"
            "  use another name"}};
 
-INSTANTIATE_TEST_SUITE_P(Catalogue, BrokenScenes, testing::ValuesIn(kCatalogue),
+INSTANTIATE_TEST_SUITE_P(Catalogue, BrokenScenes, testing::ValuesIn(kBrokenScenes),
                          [](const auto& param_info) { return std::string(param_info.param.name); });
 
 TEST(GoodScene, Loads) {

@@ -14,6 +14,7 @@ using testing::Built;
 using testing::diagonal;
 using testing::distance;
 using testing::drift;
+using testing::excite;
 using testing::simulate;
 using testing::Trajectory;
 
@@ -22,13 +23,6 @@ constexpr int kModes = 4;
 void expect_conserved(const Built& m, const Trajectory& run, double tolerance) {
   ASSERT_EQ(run.summary.status, TransientSummary::Status::complete) << run.summary.message;
   EXPECT_LT(drift(m, run), tolerance);
-}
-
-/// Spinning, flying and with strong vibration in every mode: deflections of centimetres.
-void excite(Built& m) {
-  for (const FlexibleBody& body : m.system.flexible)
-    for (int j = 0; j < body.modal.mode_count(); ++j)
-      m.state.v[body.z_rate_start + j] = 20.0 * (j % 2 == 0 ? 1 : -1);
 }
 
 int add_block(SystemBuilder& b, ModeSet modes) {

@@ -16,10 +16,10 @@ using testing::Built;
 using testing::Random;
 using enum FlexibleSignal;
 
-constexpr int kModes = 8;
+constexpr int kPulledModes = 8;
 
 /// A block that spins and vibrates, pulled at two of its nodes.
-Built pulled_block(int modes = kModes) {
+Built pulled_block(int modes = kPulledModes) {
   SystemBuilder b;
   const int block = b.add_flexible_body("block", block_modes(modes), {Matrix3::Identity(), {1, 2, 3}});
   b.set_velocity(block, {3, 1, -2}, {1.5, -0.8, 2.5});
@@ -78,11 +78,11 @@ TEST(FlexibleSignals, MotionOfTheModesAndNodesIsThatOfTheState) {
   const Built m = pulled_block();
   Workspace ws(m.system);
   auto row = row_of(m, everything(), ws);
-  const VectorX z = m.state.q.tail(kModes), z_dot = m.state.v.tail(kModes);
+  const VectorX z = m.state.q.tail(kPulledModes), z_dot = m.state.v.tail(kPulledModes);
   EXPECT_EQ(row["/flexible/block/modal_coordinates"], z);
   EXPECT_EQ(row["/flexible/block/modal_rates"], z_dot);
-  EXPECT_EQ(row["/flexible/block/modal_accelerations"], ws.v_rate.tail(kModes));
-  const ModeSet modes = block_modes(kModes);
+  EXPECT_EQ(row["/flexible/block/modal_accelerations"], ws.v_rate.tail(kPulledModes));
+  const ModeSet modes = block_modes(kPulledModes);
   VectorX delta(6), rate(6);
   for (const int i : {0, 1}) {
     const auto Psi = modes.shapes.middleRows<3>(3 * modes.node_index(i == 0 ? 14 : 3));
@@ -102,7 +102,7 @@ TEST(FlexibleSignals, EnergiesOfTheModesSumToThoseOfTheBody) {
   const VectorX& vibration = row["/flexible/block/modal_kinetic_energy"];
   EXPECT_GT(strain.minCoeff(), 0);
   EXPECT_GT(vibration.minCoeff(), 0);
-  for (int j = 0; j < kModes; ++j)
+  for (int j = 0; j < kPulledModes; ++j)
     EXPECT_NEAR(strain[j] + vibration[j], modal.mode_energy(j, ws.flexible[0].modal),
                 1e-14 * (strain[j] + vibration[j]));
   EXPECT_NEAR(row["/flexible/block/strain_energy"][0], strain.sum(), 1e-13 * strain.sum());
@@ -142,15 +142,15 @@ TEST(FlexibleSignals, RecoveryIsTheMatrixTimesTheModalCoordinates) {
   const Built m = pulled_block();
   // the third mode alone is recovered by the third column
   Built third = m;
-  third.state.q.tail(kModes).setZero();
-  third.state.q.tail(kModes)[2] = 0.25;
+  third.state.q.tail(kPulledModes).setZero();
+  third.state.q.tail(kPulledModes)[2] = 0.25;
   ObserverOptions options;
-  MatrixX R = MatrixX::Zero(2, kModes);
+  MatrixX R = MatrixX::Zero(2, kPulledModes);
   R.col(2) << 8e6, -4e6;
   R.col(5) << 1e6, 2e6;
   options.recoveries = {{"stress", "Pa", 0, {"top", "bottom"}, R}};
   EXPECT_EQ(row_of(third, options)["/recovery/stress"], VectorX(Eigen::Vector2d(2e6, -1e6)));
-  const VectorX all = R * m.state.q.tail(kModes);
+  const VectorX all = R * m.state.q.tail(kPulledModes);
   EXPECT_LT((row_of(m, options)["/recovery/stress"] - all).norm(), 1e-14 * all.norm());
 }
 

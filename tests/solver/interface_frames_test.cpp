@@ -23,11 +23,12 @@ using testing::distance;
 using testing::drift;
 using testing::every_cut_joint;
 using testing::every_tree_joint;
+using testing::excite;
 using testing::Random;
 using testing::simulate;
 using testing::Trajectory;
 
-constexpr int kModes = 4;
+constexpr int kBlockModes = 4;
 const Vector3 kVelocity(3, 1, -2), kSpin(1.5, -0.8, 2.5);
 
 InterfaceFrame first_end() {
@@ -43,17 +44,10 @@ void move(SystemBuilder& b, int body) {
                  b.design_pose(body).R.transpose() * kSpin);
 }
 
-int add_block(SystemBuilder& b, const std::string& name, const Pose& X_WB, int modes = kModes) {
+int add_block(SystemBuilder& b, const std::string& name, const Pose& X_WB, int modes = kBlockModes) {
   const int block = b.add_flexible_body(name, block_modes(modes), X_WB);
   move(b, block);
   return block;
-}
-
-/// Strong vibration in every mode: deflections of centimetres.
-void excite(Built& m) {
-  for (const FlexibleBody& body : m.system.flexible)
-    for (int j = 0; j < body.modal.mode_count(); ++j)
-      m.state.v[body.z_rate_start + j] = 20.0 * (j % 2 == 0 ? 1 : -1);
 }
 
 // ---- power
@@ -228,9 +222,9 @@ Built hinged_arm(ModeSet modes, bool rigid) {
 
 TEST(InterfaceFrames, AFrameOfAStiffBlockIsFixedToARigidBody) {
   // quasi-static deflections fall with 1/E; damping 1 keeps the starting jolt from ringing at omega = 1e6 rad/s
-  const Built rigid = hinged_arm(block_modes(kModes), true);
+  const Built rigid = hinged_arm(block_modes(kBlockModes), true);
   const Trajectory reference = simulate(rigid.system, rigid.state, 0.5, 0.25, 1e-10);
-  ModeSet stiff = block_modes(kModes, 1e16);
+  ModeSet stiff = block_modes(kBlockModes, 1e16);
   stiff.damping_ratio.setOnes();
   const Built flexible = hinged_arm(std::move(stiff), false);
   const Trajectory run = simulate(flexible.system, flexible.state, 0.5, 0.25, 1e-9, Method::bdf);

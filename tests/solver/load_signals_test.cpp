@@ -15,10 +15,7 @@
 namespace wishbone {
 namespace {
 
-struct Built {
-  System system;
-  State state;
-};
+using testing::Built;
 
 /// A cart on a slide and a rotor beside it, joined by nothing but a drive of the slide that depends on the
 /// angle of the rotor, and a force on the rotor that depends on its distance from the cart and on the cart's

@@ -251,6 +251,12 @@ Built random_loops(unsigned seed) {
   return m;
 }
 
+void excite(Built& m) {
+  for (const FlexibleBody& body : m.system.flexible)
+    for (int j = 0; j < body.modal.mode_count(); ++j)
+      m.state.v[body.z_rate_start + j] = 20.0 * (j % 2 == 0 ? 1 : -1);
+}
+
 Built four_bars(int count, const CutJoint& cut, double crank_rate) {
   SystemBuilder builder;
   builder.gravity = {0, -9.81, 0};

@@ -86,6 +86,9 @@ class Random {
 /// hold the nodes 1-4 (x = -0.6 m), 5-8, 9-12 and 13-16 (x = 0.6 m).
 ModeSet block_modes(int modes, double youngs_modulus = 1e8);
 
+/// Strong vibration in every mode of every flexible body: deflections of centimetres.
+void excite(Built& mechanism);
+
 /// A seeded random tree with every tree joint and a motion: rigid bodies on each other, on the ground and on the nodes and
 /// frames of a floating flexible block, with springs between them and loads on them. The state is far from the design pose and moving.
 Built random_tree(unsigned seed);

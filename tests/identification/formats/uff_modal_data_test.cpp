@@ -24,7 +24,7 @@ using testing::HasSubstr;
 constexpr double kTwoPi = 2 * std::numbers::pi;
 const TextFiles kFiles;
 
-std::string fixture(const std::string& name) {
+std::string fixture_file(const std::string& name) {
   return std::string(WISHBONE_TEST_DATA) + "/uff/" + name;
 }
 
@@ -69,7 +69,7 @@ UffFile two_nodes_with(std::vector<UffShape> shapes) {
 
 /// Adds a mode to a file of another program, so that it becomes modal data.
 ModalData with_mode(const std::string& name, double modal_mass) {
-  UffFile file = read_uff(fixture(name));
+  UffFile file = read_uff(fixture_file(name));
   file.shapes = {normal_mode(1, {1, 2, 3})};
   file.shapes[0].modal_mass = modal_mass;
   return data_of(file);
@@ -199,7 +199,7 @@ TEST(UffModalData, SystemsThatCannotBeFollowedAreRefused) {
 // --------------------------------------------------------------------------------------------------
 
 TEST(UffModalData, ModesOfAFiniteElementProgramAreRead) {
-  const ModalData data = read_uff_modal_data(fixture("2411_and_2414.uff"));
+  const ModalData data = read_uff_modal_data(fixture_file("2411_and_2414.uff"));
   EXPECT_EQ(data.title, "tulay_01.unvo");
   EXPECT_EQ(data.node_count(), 441);
   ASSERT_EQ(data.mode_count(), 10);
@@ -316,7 +316,7 @@ TEST(UffModalData, DisplacementsGoBeforeOtherResults) {
 
 TEST(UffModalData, AFileWithoutModesOrPositionsIsRefusedWithWhatItHolds) {
   const auto refusal = [](const std::string& name) {
-    return message_of<InputError>([&] { read_uff_modal_data(fixture(name)); });
+    return message_of<InputError>([&] { read_uff_modal_data(fixture_file(name)); });
   };
   EXPECT_THAT(refusal("heat_engine_housing.uff"),
               AllOf(HasSubstr("the file holds no modes"), HasSubstr("10 nodes, 8 elements, 1 nodal result"),

@@ -22,8 +22,8 @@ using testing::Mechanism;
 using testing::Random;
 using testing::SimbodyAnswer;
 
-constexpr double kDuration = 1;      // [s]
-constexpr double kAccuracy = 1e-12;  // of both integrators
+constexpr double kSimulatedTime = 1;  // [s]
+constexpr double kAccuracy = 1e-12;   // of both integrators
 
 BodyMotions motions_of(const System& system, const State& state) {
   Workspace ws(system);
@@ -117,9 +117,9 @@ TEST_P(SimbodyComparison, FindsTheSameAccelerationsAndReactions) {
 TEST_P(SimbodyComparison, ArrivesAtTheSamePlace) {
   const auto [mechanism, built] = drawn(GetParam());
   const SimbodyAnswer simbody =
-      ask_simbody(mechanism, motions_of(built.system, built.state), kDuration, kAccuracy);
+      ask_simbody(mechanism, motions_of(built.system, built.state), kSimulatedTime, kAccuracy);
   const testing::Trajectory run =
-      testing::simulate(built.system, built.state, kDuration, kDuration, kAccuracy);
+      testing::simulate(built.system, built.state, kSimulatedTime, kSimulatedTime, kAccuracy);
   ASSERT_EQ(run.summary.status, TransientSummary::Status::complete) << run.summary.message;
   const BodyMotions end = motions_of(built.system, run.last());
   EXPECT_LT(difference(end.poses, simbody.end.poses), 1e-8);

@@ -1,0 +1,84 @@
+#include "identification/spin_stiffening.h"
+
+#include <array>
+
+#include "identification/methods/held_stiffness.h"
+
+namespace wishbone {
+namespace {
+
+using Displacements = Eigen::Matrix<double, Eigen::Dynamic, 6>;
+
+/// w x (w x r) = sum_{a <= b} w_a w_b E_ab r, for ab = xx, yy, zz, xy, xz, yz.
+std::array<Matrix3, 6> spin_matrices() {
+  constexpr std::array<std::array<int, 2>, 6> pairs{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
+  std::array<Matrix3, 6> E;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const auto [a, b] = pairs[k];
+    E[k] = a == b ? Matrix3(-Matrix3::Identity()) : Matrix3(Matrix3::Zero());
+    E[k](a, b) += 1;
+    if (a != b) E[k](b, a) += 1;
+  }
+  return E;
+}
+
+/// -m_i E_ab (s_i - s_C)
+Displacements spin_loads(const ModeSet& set, const Vector3& centre) {
+  const std::array<Matrix3, 6> E = spin_matrices();
+  Displacements F(3 * set.node_count(), 6);
+  for (int k = 0; k < 6; ++k)
+    for (int i = 0; i < set.node_count(); ++i)
+      F.col(k).segment<3>(3 * i) =
+          -set.node_mass[i] * E[static_cast<std::size_t>(k)] * (set.node_position.col(i) - centre);
+  return F;
+}
+
+/// x_ab
+Displacements spin_deflections(const SparseMatrix& K, const ModeSet& set, const SpinLoad& load) {
+  if (load.held.empty()) {
+    Displacements F = spin_loads(set, load.centre.value_or(Vector3::Zero()));
+    const MatrixX rigid = rigid_body_modes(set.node_mass, set.node_position);
+    const MatrixX M_rigid = set.node_mass.transpose().replicate(3, 1).reshaped().asDiagonal() * rigid;
+    F -= M_rigid * (rigid.transpose() * F);
+    return HeldStiffness(K, determinate_support(rigid)).solve(F);
+  }
+  std::vector<bool> held(static_cast<std::size_t>(K.rows()), false);
+  Vector3 centre = Vector3::Zero();
+  for (const int id : load.held) {
+    const int node = set.node_index(id);
+    for (int axis = 0; axis < 3; ++axis) held[static_cast<std::size_t>(3 * node + axis)] = true;
+    centre += set.node_position.col(node) / static_cast<double>(load.held.size());
+  }
+  return HeldStiffness(K, held).solve(spin_loads(set, load.centre.value_or(centre)));
+}
+
+}  // namespace
+
+MatrixX spin_stiffening(const HexahedralMesh& mesh, const IsotropicMaterial& material, const ModeSet& set,
+                        const SpinLoad& load) {
+  const Displacements x = spin_deflections(stiffness_matrix(mesh, material), set, load);
+  const Matrix6 elasticity = material.elasticity();
+  const Eigen::Index m = set.mode_count();
+  MatrixX stiffening = MatrixX::Zero(m, 6 * m);
+  MatrixX shapes(24, m);
+  Eigen::Matrix<double, 24, 6> u;
+  for (int e = 0; e < mesh.elements.cols(); ++e) {
+    const Hexahedron element = mesh.element(e);
+    for (int corner = 0; corner < 8; ++corner) {
+      const int node = mesh.elements(corner, e);
+      shapes.middleRows<3>(3 * corner) = set.shapes.middleRows<3>(3 * node);
+      u.middleRows<3>(3 * corner) = x.middleRows<3>(3 * node);
+    }
+    for (int pair = 0; pair < 6; ++pair) {
+      const Eigen::Matrix<double, 8, 8> K = element.stress_stiffness(elasticity, u.col(pair));
+      // K_ab += sum over the axes of Psi_axis^T K Psi_axis, rows of an axis every third
+      for (int axis = 0; axis < 3; ++axis) {
+        const MatrixX along = shapes(Eigen::seqN(axis, 8, 3), Eigen::all);
+        stiffening.middleCols(pair * m, m).noalias() += along.transpose() * (K * along);
+      }
+    }
+  }
+  return stiffening;
+}
+
+}  // namespace wishbone
