@@ -96,13 +96,14 @@ struct ClampedBeam {
     if (!stiffened) return;
     // a spin about any axis across the beam pulls it alike
     set.stiffening = MatrixX::Zero(modes, 6 * modes);
-    for (const int pair : {1, 2}) set.stiffening.middleCols(pair * modes, modes) = C.transpose() * tension * C;
+    for (const int pair : {1, 2})
+      set.stiffening.middleCols(pair * modes, modes) = C.transpose() * tension * C;
   }
 };
 
 /// z'' of the clamped beam while the clamp turns: P^T a + S^T w' + z'' + h_bias = 0.
-VectorX elastic_acceleration(const ModalBody& body, ModalBodyState& state, const Vector3& p_OB, const Vector3& w,
-                             const Vector3& w_rate, const VectorX& z, const VectorX& zdot) {
+VectorX elastic_acceleration(const ModalBody& body, ModalBodyState& state, const Vector3& p_OB,
+                             const Vector3& w, const Vector3& w_rate, const VectorX& z, const VectorX& zdot) {
   body.set_position(z.data(), state);
   body.set_velocity(w, zdot.data(), state);
   const Vector3 a = w_rate.cross(p_OB) + w.cross(w.cross(p_OB));
@@ -130,9 +131,10 @@ VectorX frequencies(const Beam& beam, int modes, double gamma, const Vector3& ax
 struct Published {
   double delta, gamma, flap;
 };
-constexpr Published kPublished[] = {
-    {0, 0, 3.516015268500151}, {0, 2, 4.137319573025358}, {0, 4, 5.585001420884815}, {0, 6, 7.360373019310019},
-    {0, 12, 13.17015048750618}, {1, 2, 4.833688871530717}, {1, 6, 10.44386586945982}, {1, 12, 19.72154193525476}};
+constexpr Published kPublished[] = {{0, 0, 3.516015268500151},  {0, 2, 4.137319573025358},
+                                    {0, 4, 5.585001420884815},  {0, 6, 7.360373019310019},
+                                    {0, 12, 13.17015048750618}, {1, 2, 4.833688871530717},
+                                    {1, 6, 10.44386586945982},  {1, 12, 19.72154193525476}};
 
 TEST(SpinningBeam, HasThePublishedFrequencies) {
   Beam beam;
@@ -179,8 +181,8 @@ std::vector<double> spin_up(int modes, bool stiffened, const std::vector<double>
   for (const double time : times) {
     for (; step < std::lround(time / h); ++step) {
       const double t = h * static_cast<double>(step);
-      const VectorX k1 = rate(t, y), k2 = rate(t + h / 2, y + h / 2 * k1), k3 = rate(t + h / 2, y + h / 2 * k2),
-                    k4 = rate(t + h, y + h * k3);
+      const VectorX k1 = rate(t, y), k2 = rate(t + h / 2, y + h / 2 * k1),
+                    k3 = rate(t + h / 2, y + h / 2 * k2), k4 = rate(t + h, y + h * k3);
       y += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
     }
     tip.push_back(beam.tip.dot(y.head(modes)));
@@ -192,10 +194,10 @@ std::vector<double> spin_up(int modes, bool stiffened, const std::vector<double>
 // to 10 digits. Linear shapes with the stiffness of the tension follow it to 1e-3 of the largest deflection, 0.574 m.
 TEST(SpinningBeam, FollowsTheSpinUpOfAGeometricallyExactBeam) {
   const std::vector<double> times{1, 2, 3, 4, 5, 6, 6.762, 8, 9, 10, 12, 14, 15, 17, 20};
-  const std::vector<double> exact{-2.05435319768e-02, -1.02380632191e-01, -2.17267358746e-01, -3.42278647478e-01,
-                                  -4.68476183441e-01, -5.43596400281e-01, -5.73834759187e-01, -5.42841535139e-01,
-                                  -4.60271115712e-01, -3.62814515637e-01, -1.50900697086e-01, -2.02913377682e-02,
-                                  1.30362628219e-03,  -2.53351302164e-03, 7.26580818045e-04};
+  const std::vector<double> exact{
+      -2.05435319768e-02, -1.02380632191e-01, -2.17267358746e-01, -3.42278647478e-01, -4.68476183441e-01,
+      -5.43596400281e-01, -5.73834759187e-01, -5.42841535139e-01, -4.60271115712e-01, -3.62814515637e-01,
+      -1.50900697086e-01, -2.02913377682e-02, 1.30362628219e-03,  -2.53351302164e-03, 7.26580818045e-04};
   const std::vector<double> tip = spin_up(3, true, times);
   for (std::size_t i = 0; i < times.size(); ++i)
     EXPECT_NEAR(tip[i], exact[i], 1e-3 * 0.574) << "t = " << times[i] << " s";
