@@ -6,6 +6,7 @@
 
 #include "bodies/nodal_shapes.h"
 #include "core/yaml.h"
+#include "identification/nodal_model.h"
 #include "models/compile_joints.h"
 #include "models/compile_loads.h"
 #include "models/compile_recoveries.h"

@@ -17,6 +17,7 @@
 #include "bodies/nodal_shapes.h"
 #include "core/error.h"
 #include "identification/free_free_modes.h"
+#include "identification/nodal_model.h"
 
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
 // Every allocation of this program, operator new and Eigen's own, passes here.
