@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/null_space.h"
 #include "identification/methods/lowest_modes.h"
-#include "identification/methods/null_space.h"
 
 namespace wishbone {
 namespace {
