@@ -13,6 +13,10 @@ namespace {
 
 /// The ratios that the scene gives; those of the modes where it gives none.
 void set_damping(const Scene::Body& body, ModeSet& modes) {
+  if (const auto& rayleigh = body.flexible->rayleigh) {
+    modes.damping_ratio = rayleigh->ratios(modes.omega);
+    return;
+  }
   if (const auto& ratio = body.flexible->common_damping) modes.damping_ratio.setConstant(*ratio);
   const std::vector<double>& ratios = body.flexible->damping;
   if (ratios.empty()) return;

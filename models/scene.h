@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "bodies/rayleigh_damping.h"
 #include "core/function.h"
 #include "core/source.h"
 #include "core/spatial.h"
@@ -77,8 +78,9 @@ struct Scene {
     std::vector<double> damping;  ///< damping ratio of each kept mode; empty: as identified, or one for all
     /// One damping ratio for all modes, when their number is not known yet.
     std::optional<double> common_damping;
-    std::optional<FixedAxes> fixed_axes;  ///< node ids; empty: mean axes
-    bool source_terms = false;            ///< inertial coupling as in the source, not all that there is
+    std::optional<RayleighDamping> rayleigh;  ///< instead of damping ratios
+    std::optional<FixedAxes> fixed_axes;      ///< node ids; empty: mean axes
+    bool source_terms = false;                ///< inertial coupling as in the source, not all that there is
     std::vector<Frame> frames;
   };
 

@@ -146,8 +146,25 @@ std::optional<int> known_count(const Scene::Flexible& flexible) {
   return std::nullopt;
 }
 
-/// One ratio for all modes, or a list of one per mode, the length of which is checked where it is known already.
+/// {mass: alpha, stiffness: beta}.
+RayleighDamping read_rayleigh(const Value& value) {
+  const Mapping keys(value, {"mass", "stiffness"});
+  RayleighDamping rayleigh;
+  if (const auto mass = keys.optional("mass")) rayleigh.mass = mass->non_negative(kRate);
+  if (const auto stiffness = keys.optional("stiffness")) rayleigh.stiffness = stiffness->non_negative(kTime);
+  if (!keys.has("mass") && !keys.has("stiffness"))
+    value.refuse("damping in proportion to mass and stiffness needs one of the two",
+                 "write {mass: ... 1/s, stiffness: ... s}, or a damping ratio");
+  return rayleigh;
+}
+
+/// One ratio for all modes, a list of one per mode, the length of which is checked where it is known already, or what gives
+/// each mode its ratio.
 void take_damping(const Value& value, std::optional<int> count, Scene::Flexible& flexible) {
+  if (value.is_mapping()) {
+    flexible.rayleigh = read_rayleigh(value);
+    return;
+  }
   if (!value.is_list()) {
     const double ratio = value.non_negative(kRatio);
     if (count)

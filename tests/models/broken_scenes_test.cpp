@@ -276,6 +276,21 @@ constexpr Broken kCatalogue[] = {
         "NegativeDamping", "damping: 1 %", "damping: -1 %",
         "scene.yaml:20:16: bodies.beam.flexible.damping: error: the ratio must not be negative (got '-1 %')\n"
         "  give zero or a value above it"},
+    Broken{"DampingOfNothing", "damping: 1 %", "damping: {}",
+           "scene.yaml:20:7: bodies.beam.flexible.damping: error: damping in proportion to mass and "
+           "stiffness needs one of the two\n"
+           "  write {mass: ... 1/s, stiffness: ... s}, or a damping ratio"},
+    Broken{"NegativeMassDamping", "damping: 1 %", "damping: {mass: -1}",
+           "scene.yaml:20:23: bodies.beam.flexible.damping.mass: error: the rate must not be negative (got "
+           "'-1')\n"
+           "  give zero or a value above it"},
+    Broken{"StiffnessDampingAsAStiffness", "damping: 1 %", "damping: {stiffness: 2 kN/m}",
+           "scene.yaml:20:28: bodies.beam.flexible.damping.stiffness: error: wrong dimension: time [s] is "
+           "wanted, this is stiffness [N/m] (got '2 kN/m')\n"
+           "  give it in s, or in a unit that converts to it"},
+    Broken{"UnknownProportionOfDamping", "damping: 1 %", "damping: {mass: 1, stifness: 1 ms}",
+           "scene.yaml:20:26: bodies.beam.flexible.damping: error: unknown key 'stifness'\n"
+           "  did you mean 'stiffness'?"},
     Broken{"VelocityOfCarriedBody", "position: [2, 0, 0]", "position: [2, 0, 0], velocity: [1, 0, 0]",
            "scene.yaml:10:3: bodies.wheel: error: the velocity of the body follows from the joint 'slide'\n"
            "  remove 'velocity' and 'angular_velocity'; give the joint a 'speed' if it moves"},
