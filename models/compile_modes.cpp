@@ -37,7 +37,7 @@ const std::vector<int>& nodes_of(const Scene::StaticNodes& nodes, const std::vec
 FlexibleModes model_modes_of(const Scene::Flexible& flexible, const std::vector<int>& interfaces) {
   const auto reduce = [&](const AnalyticalModel& model) {
     return flexible_modes(model, flexible.modes, nodes_of(flexible.attachment, interfaces),
-                          nodes_of(flexible.constraint, interfaces));
+                          nodes_of(flexible.constraint, interfaces), flexible.modes_of);
   };
   if (flexible.model) return reduce(*flexible.model);
   const Scene::Block& b = *flexible.block;
@@ -55,7 +55,9 @@ std::string static_text(const Scene::StaticNodes& nodes, const std::vector<int>&
 std::string choice_text(const Scene::Flexible& flexible, const std::vector<int>& interfaces,
                         const FlexibleModes& modes) {
   std::string text = flexible.automatic ? "automatic: " : "";
-  text += describe(flexible.modes) + static_text(flexible.attachment, interfaces, "attachment") +
+  const bool held = flexible.modes_of == NormalModes::of_held_interfaces;
+  text += describe(flexible.modes, held ? "fixed-interface" : "normal") +
+          static_text(flexible.attachment, interfaces, "attachment") +
           static_text(flexible.constraint, interfaces, "constraint");
   if (modes.left_out > 0)
     text +=

@@ -72,7 +72,8 @@ struct Scene {
     std::shared_ptr<const AnalyticalModel> model;              ///< instead of a block; masses are lumped
     std::shared_ptr<const IdentificationTask> identification;  ///< null: modes of the block or model
     bool is_rigid = false;                                     ///< no modes at all
-    ModeChoice modes;                    ///< normal modes kept of those of the block or model
+    ModeChoice modes;  ///< normal modes kept of those of the block or model
+    NormalModes modes_of = NormalModes::of_free_body;
     bool automatic = false;              ///< `modes` and `attachment` are the program's choice
     StaticNodes attachment, constraint;  ///< beside normal modes
     std::vector<double> damping;  ///< damping ratio of each kept mode; empty: as identified, or one for all

@@ -65,8 +65,10 @@ ListedModes read_list(const Value& value, int elastic) {
   return listed;
 }
 
-/// {lowest: N}, {below: F} or {list: [N, ...]}.
+/// N, all, {lowest: N}, {below: F} or {list: [N, ...]}.
 ModeChoice read_choice(const Value& value, int elastic) {
+  if (value.is_word("all")) return AllModes{};
+  if (looks_like_number(value.node()->text)) return LowestModes{value.integer(1, elastic)};
   const Mapping keys(value, {"lowest", "below", "list"});
   if (value.node()->entries.size() != 1)
     keys.refuse("one of 'lowest', 'below' and 'list' chooses the modes", "remove the others");
@@ -105,20 +107,25 @@ void take_automatic(const Mapping& keys, Scene::Flexible& flexible) {
                        "remove the key");
 }
 
+/// {fixed_interface: ...}: normal modes with the interfaces held, and their constraint modes.
+void take_fixed_interface(const Mapping& keys, const Value& modes, int elastic, Scene::Flexible& flexible) {
+  const Mapping held(modes, {"fixed_interface"});
+  flexible.modes_of = NormalModes::of_held_interfaces;
+  flexible.modes = read_choice(held.required("fixed_interface"), elastic);
+  if (!keys.has("constraint")) flexible.constraint = {true, {}};
+}
+
 /// Normal modes of a block or model, and static shapes beside them.
 void take_model_modes(const Mapping& keys, const Value& modes, Scene::Flexible& flexible) {
   const int elastic = 3 * static_cast<int>(flexible.node_ids.size()) - 6;
-  const bool is_number = looks_like_number(modes.node()->text);
-  if (modes.is_mapping())
-    flexible.modes = read_choice(modes, elastic);
-  else if (modes.is_word("all"))
-    flexible.modes = AllModes{};
+  if (has_any(modes, {"fixed_interface"}))
+    take_fixed_interface(keys, modes, elastic, flexible);
   else if (modes.is_word("automatic"))
     take_automatic(keys, flexible);
   else if (modes.is_word("none"))
     flexible.is_rigid = true;
-  else if (is_number)
-    flexible.modes = LowestModes{modes.integer(1, elastic)};
+  else if (modes.is_mapping() || modes.is_word("all") || looks_like_number(modes.node()->text))
+    flexible.modes = read_choice(modes, elastic);
   else
     modes.refuse_choice({"all", "automatic", "none"}, "the choices of modes");
 
@@ -281,7 +288,8 @@ Scene::Flexible read_flexible(const Value& value, Scene& scene) {
                              "damping", "axes", "inertia", "frames"});
   Scene::Flexible flexible;
   const Value modes = keys.required("modes");
-  const bool identified = modes.is_mapping() && !has_any(modes, {"lowest", "below", "list"});
+  const bool identified =
+      modes.is_mapping() && !has_any(modes, {"lowest", "below", "list", "fixed_interface"});
   take_nodes(keys, !identified, flexible, scene);
   if (identified) {
     refuse_static_shapes(keys);

@@ -229,6 +229,13 @@ constexpr Broken kCatalogue[] = {
            "wanted, "
            "this is angular velocity [rad/s] (got '50 rad/s')\n"
            "  give it in Hz, or in a unit that converts to it"},
+    Broken{"NoModesOfHeldInterfaces", "modes: all", "modes: {fixed_interface: 0}",
+           "scene.yaml:19:32: bodies.beam.flexible.modes.fixed_interface: error: a whole number from 1 to 30 "
+           "is wanted here (got '0')\n"
+           "  give one of them"},
+    Broken{"FreeModesAndModesOfHeldInterfaces", "modes: all", "modes: {fixed_interface: 2, lowest: 3}",
+           "scene.yaml:19:35: bodies.beam.flexible.modes: error: unknown key 'lowest'\n"
+           "  the keys here are: fixed_interface"},
     Broken{"AutomaticWithoutLimit", "modes: all", "modes: automatic",
            "scene.yaml:16:5: bodies.beam.flexible: error: the key 'below' is missing\n"
            "  add 'below: ...' here"},
