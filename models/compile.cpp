@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "bodies/nodal_shapes.h"
+#include "bodies/rigid_frames.h"
 #include "core/yaml.h"
 #include "identification/nodal_model.h"
 #include "models/compile_joints.h"
@@ -15,10 +16,6 @@
 
 namespace wishbone {
 namespace {
-
-InterfaceFrame interface_frame(const Scene::Frame& frame) {
-  return {frame.name, frame.nodes, frame.weights};
-}
 
 /// One scene on its way into a SystemBuilder.
 class Compiler {
@@ -69,11 +66,15 @@ class Compiler {
     const ModeSet modes = modes_.modes_of(number);
     return within(body.where, [&] {
       modes.validate();
-      if (body.form == Scene::BodyForm::kModal) return wishbone::shapes_of(modes);
-      const NodalModel model = nodal_model(modes);
-      const auto& axes = body.flexible->fixed_axes;
-      return axes ? fixed_axis_shapes(model, *axes) : mean_axis_shapes(model);
+      return with_rigid_frames(form_of(body, modes), rigid_frames(*body.flexible));
     });
+  }
+
+  static ShapeSet form_of(const Scene::Body& body, const ModeSet& modes) {
+    if (body.form == Scene::BodyForm::kModal) return wishbone::shapes_of(modes);
+    const NodalModel model = nodal_model(modes);
+    const auto& axes = body.flexible->fixed_axes;
+    return axes ? fixed_axis_shapes(model, *axes) : mean_axis_shapes(model);
   }
 
   MarkerIndex marker(const Scene::Point& point) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "bodies/rigid_frames.h"
 #include "core/yaml.h"
 #include "identification/flexible_modes.h"
 #include "identification/mode_set_of.h"
@@ -65,7 +66,30 @@ std::string choice_text(const Scene::Flexible& flexible, const std::vector<int>&
   return text;
 }
 
+/// With what rigid frames make of the modes.
+BodyModes table_of(const Scene::Body& body, std::string choice, const FlexibleModes& modes,
+                   const std::vector<int>& interfaces) {
+  const std::vector<InterfaceFrame> rigid = rigid_frames(*body.flexible);
+  if (rigid.empty()) return {body.name, std::move(choice), mode_table(modes.set, modes.kinds, interfaces)};
+  const ModeSet left = as_modes(with_rigid_frames(shapes_of(modes.set), rigid));
+  choice += fmt::format("; {} rigid frame{} {} of {}", rigid.size(),
+                        rigid.size() == 1 ? " leaves" : "s leave", left.mode_count(), modes.set.mode_count());
+  return {body.name, std::move(choice),
+          mode_table(left, inherited_kinds(left, modes.set, modes.kinds), interfaces)};
+}
+
 }  // namespace
+
+InterfaceFrame interface_frame(const Scene::Frame& frame) {
+  return {frame.name, frame.nodes, frame.weights};
+}
+
+std::vector<InterfaceFrame> rigid_frames(const Scene::Flexible& flexible) {
+  std::vector<InterfaceFrame> rigid;
+  for (const Scene::Frame& frame : flexible.frames)
+    if (frame.rigid) rigid.push_back(interface_frame(frame));
+  return rigid;
+}
 
 ModeSet ModeCompiler::modes_of(int index) {
   const Scene::Body& body = scene_.bodies[static_cast<std::size_t>(index)];
@@ -86,7 +110,7 @@ ModeSet ModeCompiler::modes_of(int index) {
     return 0;
   });
   set_damping(body, modes.set);
-  tables.push_back({body.name, std::move(choice), mode_table(modes.set, modes.kinds, interfaces)});
+  tables.push_back(within(body.where, [&] { return table_of(body, std::move(choice), modes, interfaces); }));
   return std::move(modes.set);
 }
 

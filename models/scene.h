@@ -55,11 +55,12 @@ struct Scene {
     bool empty() const { return !interfaces && ids.empty(); }
   };
 
-  /// A frame over several nodes of a body, which follows them in the mean.
+  /// A frame over several nodes of a body, which follows them in the mean, or to which they are tied.
   struct Frame {
     std::string name;
     std::vector<int> nodes;
     std::vector<double> weights;  ///< of each node; empty: all one
+    bool rigid = false;           ///< the nodes keep their distances
     Vector3 centre_B =
         Vector3::Zero();  ///< weighted centre of the nodes, body axes, from the mass centre [m]
   };

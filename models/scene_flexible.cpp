@@ -228,14 +228,14 @@ void take_nodes(const Mapping& keys, bool needed, Scene::Flexible& flexible, Sce
     take_block(read_block(keys.required("block"), keys.required("material")), flexible);
 }
 
-/// {nodes: [...], weights: [...]}.
+/// {nodes: [...], weights: [...], rigid: true}.
 Scene::Frame read_frame(const std::string& name, const Value& value, const Scene::Flexible& flexible) {
   Scene::Frame frame;
   frame.name = name;
   const auto place = [&](int id) {
     return std::find(flexible.node_ids.begin(), flexible.node_ids.end(), id);
   };
-  const Mapping keys(value, {"nodes", "weights"});
+  const Mapping keys(value, {"nodes", "weights", "rigid"});
   const Value nodes = keys.required("nodes");
   for (const Value& item : nodes.list()) {
     const int node = item.integer(std::numeric_limits<int>::min(), std::numeric_limits<int>::max());
@@ -252,6 +252,7 @@ Scene::Frame read_frame(const std::string& name, const Value& value, const Scene
           fmt::format("there are {} weights for {} nodes", frame.weights.size(), frame.nodes.size()),
           "give one weight per node, or leave them out for equal ones");
   }
+  if (const auto rigid = keys.optional("rigid")) frame.rigid = rigid->boolean();
 
   Matrix3X position(3, static_cast<Eigen::Index>(frame.nodes.size()));
   for (std::size_t i = 0; i < frame.nodes.size(); ++i)

@@ -414,6 +414,12 @@ constexpr Broken kCatalogue[] = {
            "scene.yaml:21:56: bodies.beam.flexible.frames.tip.weights[2]: error: the ratio must be positive "
            "(got '0')\n"
            "  give a value above zero"},
+    Broken{
+        "FrameThatIsPerhapsRigid", "damping: 1 %",
+        "damping: 1 %\n      frames: {tip: {nodes: [9, 10, 11], rigid: perhaps}}",
+        "scene.yaml:21:49: bodies.beam.flexible.frames.tip.rigid: error: true or false is wanted here (got "
+        "'perhaps')\n"
+        "  write true or false"},
     Broken{"FrameWithoutNodes", "damping: 1 %", "damping: 1 %\n      frames: {tip: {}}",
            "scene.yaml:21:21: bodies.beam.flexible.frames.tip: error: the key 'nodes' is missing\n"
            "  add it"},
