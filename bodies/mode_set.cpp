@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -67,6 +68,15 @@ MatrixX rigid_body_modes(const VectorX& node_mass, const Matrix3X& node_position
     modes.block<3, 3>(3 * i, 3) = L.matrixL().solve(skew(node_position.col(i))).transpose();
   }
   return modes;
+}
+
+MatrixX elastic_complement(const VectorX& node_mass, const Matrix3X& node_position) {
+  const VectorX root_mass = node_mass.transpose().replicate(3, 1).reshaped().cwiseSqrt();
+  const MatrixX Y = root_mass.asDiagonal() * rigid_body_modes(node_mass, node_position);
+  MatrixX Q = MatrixX::Zero(Y.rows(), Y.rows() - Y.cols());
+  Q.bottomRows(Q.cols()).setIdentity();
+  Q.applyOnTheLeft(Eigen::HouseholderQR<MatrixX>(Y).householderQ());
+  return Q;
 }
 
 int ModeSet::node_index(int node_id) const {

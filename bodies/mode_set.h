@@ -52,4 +52,9 @@ Matrix3 point_mass_inertia(const VectorX& node_mass, const Matrix3X& node_positi
 /// Throws InputError if the nodes lie on one line, for then a rotation moves nothing.
 MatrixX rigid_body_modes(const VectorX& node_mass, const Matrix3X& node_position);
 
+/// Q (3n x (3n - 6)), an orthonormal basis of all that is not rigid motion in mass-weighted displacements M^1/2 delta:
+///     Q^T M^1/2 Psi_0 = 0,   Q^T Q = 1,
+/// the unit vectors of all freedoms but the first six, reflected (Householder). Throws InputError as rigid_body_modes does.
+MatrixX elastic_complement(const VectorX& node_mass, const Matrix3X& node_position);
+
 }  // namespace wishbone

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -68,29 +67,8 @@ std::array<int, 6> held_freedoms(const NodalModel& model, const std::array<int, 
 
 }  // namespace
 
-NodalModel nodal_model(const ModeSet& modes) {
-  const int complete = 3 * modes.node_count() - 6;
-  if (modes.mode_count() != complete)
-    throw InputError(
-        {"nodal form",
-         fmt::format("the nodal form of {} nodes needs all {} modes", modes.node_count(), complete),
-         fmt::format("{} modes", modes.mode_count()), "keep all modes, or use the modal form"});
-  const MatrixX M_Psi = modes.node_mass.transpose().replicate(3, 1).reshaped().asDiagonal() * modes.shapes;
-  NodalModel model{modes.node_ids, modes.node_mass, modes.node_position, {}, {}};
-  model.stiffness = M_Psi * modes.omega.cwiseAbs2().asDiagonal() * M_Psi.transpose();
-  if (modes.damping_ratio.cwiseAbs().maxCoeff() > 0)
-    model.damping =
-        M_Psi * (2 * modes.damping_ratio.cwiseProduct(modes.omega)).asDiagonal() * M_Psi.transpose();
-  return model;
-}
-
 ShapeSet mean_axis_shapes(const NodalModel& model) {
-  const VectorX root_mass = inverse_root_masses(model).cwiseInverse();
-  const MatrixX Y = root_mass.asDiagonal() * rigid_body_modes(model.node_mass, model.node_position);
-  MatrixX Q = MatrixX::Zero(Y.rows(), Y.rows() - 6);
-  Q.bottomRows(Q.cols()).setIdentity();
-  Q.applyOnTheLeft(Eigen::HouseholderQR<MatrixX>(Y).householderQ());
-  return shapes_in(model, Q, true);
+  return shapes_in(model, elastic_complement(model.node_mass, model.node_position), true);
 }
 
 ShapeSet fixed_axis_shapes(const NodalModel& model, const std::array<int, 3>& nodes) {

@@ -16,10 +16,6 @@ struct NodalModel {
   MatrixX damping;            ///< 3n x 3n [N s/m]; empty: none
 };
 
-/// The model whose modes these are, from all of them: K = M Psi diag(omega^2) Psi^T M, C = M Psi diag(2 zeta omega) Psi^T M.
-/// @throws InputError unless the set is complete, 3n - 6 modes
-NodalModel nodal_model(const ModeSet& modes);
-
 /// Nodal form with mean axes: z = Q^T M^1/2 delta, the mass-weighted displacements of the nodes, reflected so that the six
 /// rigid motions drop out (Q is the complement of the mass-weighted rigid-body modes). 3n - 6 shapes,
 ///     Phi = M^-1/2 Q,   K_z = Phi^T K Phi,   C_z = Phi^T C Phi.

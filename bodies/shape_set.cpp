@@ -123,4 +123,11 @@ ShapeSet shapes_of(const ModeSet& modes) {
   return set;
 }
 
+ModeSet as_modes(const ShapeSet& set) {
+  const VectorX omega = set.stiffness.col(0).cwiseSqrt();
+  const VectorX damping = set.damping.cols() == 1 ? VectorX(set.damping) : VectorX(set.damping.diagonal());
+  return {set.node_ids, set.node_mass, set.node_position,
+          omega,        set.shapes,    damping.cwiseQuotient(2 * omega)};
+}
+
 }  // namespace wishbone

@@ -43,4 +43,8 @@ struct ShapeSet {
 /// The modes as shapes: K = diag(omega^2), C = diag(2 zeta omega), mean axes.
 ShapeSet shapes_of(const ModeSet& modes);
 
+/// The way back, of shapes that are modes (has_modes): omega = sqrt(K_jj), zeta = C_jj / (2 omega), by which
+/// damping that couples the modes is told of each alone.
+ModeSet as_modes(const ShapeSet& set);
+
 }  // namespace wishbone

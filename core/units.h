@@ -15,6 +15,7 @@ struct Dimension {
 
 inline constexpr Dimension kRatio{"ratio", "1"};
 inline constexpr Dimension kFrequency{"frequency", "Hz"};
+inline constexpr Dimension kRate{"rate", "1/s"};
 inline constexpr Dimension kLength{"length", "m"};
 inline constexpr Dimension kMass{"mass", "kg"};
 inline constexpr Dimension kTime{"time", "s"};

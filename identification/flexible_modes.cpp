@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "identification/fixed_interface_modes.h"
 #include "identification/methods/attachment_modes.h"
 #include "identification/methods/constraint_modes.h"
 #include "identification/normal_modes.h"
@@ -36,11 +37,22 @@ MatrixX constraint_shapes(const AnalyticalModel& model, const MatrixX& rigid, co
   return constraint_modes(model.K, rigid, freedoms_of(nodes, model));
 }
 
+Modes no_modes(const AnalyticalModel& model) {
+  return {VectorX(0), MatrixX(model.K.rows(), 0)};
+}
+
+MatrixX held_shapes(const AnalyticalModel& model, const ModeChoice& choice, const std::vector<int>& nodes) {
+  if (nodes.empty())
+    throw InputError({"flexible body", "modes with held interfaces need interfaces", "none",
+                      "join the body to others at nodes or frames, or name nodes under 'constraint'"});
+  return fixed_interface_modes(model, choice, freedoms_of(nodes, model)).shapes;
+}
+
 }  // namespace
 
 FlexibleModes flexible_modes(const AnalyticalModel& model, const ModeChoice& normal,
                              const std::vector<int>& attachment_nodes,
-                             const std::vector<int>& constraint_nodes) {
+                             const std::vector<int>& constraint_nodes, NormalModes of) {
   if (model.node_mass.size() == 0)
     throw InputError({"flexible body", "its masses must be lumped", "a mass matrix that is not lumped",
                       "lump it: 'lumping: row_sum' or 'lumping: diagonal'"});
@@ -51,11 +63,14 @@ FlexibleModes flexible_modes(const AnalyticalModel& model, const ModeChoice& nor
   const Vector3 centre = model.node_position * model.node_mass / model.node_mass.sum();
   set.node_position = model.node_position.colwise() - centre;
 
-  const Modes kept = normal_modes(model, normal);
+  const bool held = of == NormalModes::of_held_interfaces;
+  const Modes kept = held ? no_modes(model) : normal_modes(model, normal);
   const MatrixX rigid = rigid_body_modes(set.node_mass, set.node_position);
-  CombinedModes all =
-      combined_modes(model.K, model.M, rigid, kept, attachment_shapes(model, rigid, attachment_nodes),
-                     constraint_shapes(model, rigid, constraint_nodes));
+  const MatrixX attachment = attachment_shapes(model, rigid, attachment_nodes);
+  const MatrixX constraint = constraint_shapes(model, rigid, constraint_nodes);
+  const MatrixX fixed_interface =
+      held ? held_shapes(model, normal, constraint_nodes) : no_modes(model).shapes;
+  CombinedModes all = combined_modes(model.K, model.M, rigid, kept, attachment, constraint, fixed_interface);
   if (all.modes.count() == 0)
     throw InputError({"flexible body", "no mode is chosen", describe(normal),
                       "raise the limit, or write 'modes: none' for a rigid body"});

@@ -52,13 +52,8 @@ ModeSet free_free_modes(const std::vector<int>& node_ids, const VectorX& node_ma
                       fmt::format("relative resistance {:.3g}", resistance),
                       "remove supports and springs to ground from it"});
 
-  // Q: the last 3n - 6 columns of the orthogonal factor of Y
-  const Eigen::Index elastic_count = Y.rows() - 6;
-  MatrixX Q = MatrixX::Zero(Y.rows(), elastic_count);
-  Q.bottomRows(elastic_count).setIdentity();
-  const Eigen::HouseholderQR<MatrixX> qr(Y);
-  Q.applyOnTheLeft(qr.householderQ());
-
+  const MatrixX Q = elastic_complement(node_mass, s);
+  const Eigen::Index elastic_count = Q.cols();
   const Eigen::SelfAdjointEigenSolver<MatrixX> eigen(Q.transpose() * K_hat * Q);
   const VectorX& lambda = eigen.eigenvalues();
   if (!(lambda[0] > 1e-12 * lambda[elastic_count - 1]))

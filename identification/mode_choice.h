@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -20,7 +21,14 @@ struct ListedModes {
 };
 using ModeChoice = std::variant<AllModes, LowestModes, ModesBelow, ListedModes>;
 
-/// "all normal modes", "the 10 lowest normal modes", "the normal modes below 200 Hz", "normal modes 1, 2, 5".
-std::string describe(const ModeChoice& choice);
+/// "all normal modes", "the 10 lowest normal modes", "the normal modes below 200 Hz", "normal modes 1, 2, 5", or of another
+/// `kind` than normal.
+std::string describe(const ModeChoice& choice, std::string_view kind = "normal");
+
+/// What the chosen normal modes are modes of.
+enum class NormalModes {
+  of_free_body,
+  of_held_interfaces  ///< of the body held at its interfaces, beside their constraint modes [Craig, Bampton 1968]
+};
 
 }  // namespace wishbone

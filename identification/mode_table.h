@@ -24,4 +24,9 @@ struct ModeRow {
 std::vector<ModeRow> mode_table(const ModeSet& set, const std::vector<ModeKind>& kinds,
                                 const std::vector<int>& nodes);
 
+/// Kinds of modes (of unit modal mass) that are combinations of others of the same nodes: each has that of most of
+/// its strain energy, sum_i (omega_i psi_i^T M psi)^2 over the modes psi_i of a kind.
+std::vector<ModeKind> inherited_kinds(const ModeSet& combined, const ModeSet& from,
+                                      const std::vector<ModeKind>& kinds);
+
 }  // namespace wishbone

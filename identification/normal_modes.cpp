@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "core/error.h"
+#include "identification/chosen_modes.h"
 #include "identification/free_free_modes.h"
 #include "identification/methods/clean_up.h"
 #include "identification/methods/lowest_modes.h"
@@ -19,17 +19,7 @@ using Eigen::Index;
 
 constexpr Index kRigid = 6;
 constexpr Index kSmall = 600;  // freedoms
-
-/// As many of the lowest modes as hold all that are chosen; of a limit below which there are fewer, some more.
-Index lowest_needed(const AnalyticalModel& model, const ModeChoice& choice) {
-  const Index elastic = model.K.rows() - kRigid;
-  if (const auto* lowest = std::get_if<LowestModes>(&choice)) return lowest->count;
-  if (const auto* listed = std::get_if<ListedModes>(&choice))
-    return listed->numbers.empty() ? 0 : listed->numbers.back();
-  if (const auto* below = std::get_if<ModesBelow>(&choice); below && model.K.rows() > kSmall)
-    return std::max<Index>(0, modes_below(model.K, model.M, below->omega * below->omega) - kRigid);
-  return elastic;
-}
+constexpr const char* kWhich = "elastic modes";
 
 Modes dense_modes(const AnalyticalModel& model) {
   if (model.K.rows() > kMostDenseFreedoms)
@@ -56,34 +46,16 @@ Modes sparse_modes(const AnalyticalModel& model, const MatrixX& rigid, Index cou
   return modes;
 }
 
-/// The columns of what was computed that are chosen, 0-based.
-std::vector<Index> chosen_columns(const ModeChoice& choice, const Modes& modes) {
-  std::vector<Index> chosen;
-  if (const auto* listed = std::get_if<ListedModes>(&choice)) {
-    for (const int number : listed->numbers) {
-      if (number < 1 || number > modes.count())
-        throw InputError({"flexible body", fmt::format("the body has {} elastic modes", modes.count()),
-                          fmt::format("mode {}", number), "list modes that it has"});
-      chosen.push_back(number - 1);
-    }
-    return chosen;
-  }
-  Index count = modes.count();
-  if (const auto* lowest = std::get_if<LowestModes>(&choice)) count = lowest->count;
-  if (const auto* below = std::get_if<ModesBelow>(&choice))
-    count = (modes.lambda.array() < below->omega * below->omega).count();
-  chosen.resize(static_cast<std::size_t>(count));
-  std::iota(chosen.begin(), chosen.end(), Index{0});
-  return chosen;
-}
-
 }  // namespace
 
 Modes normal_modes(const AnalyticalModel& model, const ModeChoice& choice) {
-  const Index n = model.K.rows(), needed = lowest_needed(model, choice);
-  if (needed > n - kRigid)
-    throw InputError({"flexible body", fmt::format("the body has {} elastic modes", n - kRigid),
-                      fmt::format("{} wanted", needed), "choose fewer"});
+  const Index n = model.K.rows();
+  const auto count_below = [&](double omega) {
+    // of a small model all are computed anyway
+    if (n <= kSmall) return n - kRigid;
+    return std::max<Index>(0, modes_below(model.K, model.M, omega * omega) - kRigid);
+  };
+  const Index needed = lowest_needed(choice, n - kRigid, count_below, kWhich);
   if (needed == 0) return {VectorX(0), MatrixX(n, 0)};
   const bool dense = n <= kSmall || 4 * (needed + kRigid) >= n;
   const Vector3 centre = model.node_position * model.node_mass / model.node_mass.sum();
@@ -91,8 +63,7 @@ Modes normal_modes(const AnalyticalModel& model, const ModeChoice& choice) {
       dense ? dense_modes(model)
             : sparse_modes(model, rigid_body_modes(model.node_mass, model.node_position.colwise() - centre),
                            needed);
-  const std::vector<Index> chosen = chosen_columns(choice, modes);
-  return {modes.lambda(chosen), modes.shapes(Eigen::all, chosen)};
+  return chosen_modes(choice, modes, kWhich);
 }
 
 }  // namespace wishbone

@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "bodies/nodal_shapes.h"
+#include "bodies/rigid_frames.h"
 #include "core/yaml.h"
+#include "identification/nodal_model.h"
 #include "models/compile_joints.h"
 #include "models/compile_loads.h"
 #include "models/compile_recoveries.h"
@@ -14,10 +16,6 @@
 
 namespace wishbone {
 namespace {
-
-InterfaceFrame interface_frame(const Scene::Frame& frame) {
-  return {frame.name, frame.nodes, frame.weights};
-}
 
 /// One scene on its way into a SystemBuilder.
 class Compiler {
@@ -68,10 +66,7 @@ class Compiler {
     const ModeSet modes = modes_.modes_of(number);
     ShapeSet set = within(body.where, [&] {
       modes.validate();
-      if (body.form == Scene::BodyForm::kModal) return wishbone::shapes_of(modes);
-      const NodalModel model = nodal_model(modes);
-      const auto& axes = body.flexible->fixed_axes;
-      return axes ? fixed_axis_shapes(model, *axes) : mean_axis_shapes(model);
+      return with_rigid_frames(form_of(body, modes), rigid_frames(*body.flexible));
     });
     set.stiffening = in_shapes(modes_.stiffening_of(number, modes), modes, set);
     return set;
@@ -87,6 +82,13 @@ class Compiler {
     for (int pair = 0; pair < 6; ++pair)
       result.middleCols(pair * n, n) = T.transpose() * matrices.middleCols(pair * m, m) * T;
     return result;
+  }
+
+  static ShapeSet form_of(const Scene::Body& body, const ModeSet& modes) {
+    if (body.form == Scene::BodyForm::kModal) return wishbone::shapes_of(modes);
+    const NodalModel model = nodal_model(modes);
+    const auto& axes = body.flexible->fixed_axes;
+    return axes ? fixed_axis_shapes(model, *axes) : mean_axis_shapes(model);
   }
 
   MarkerIndex marker(const Scene::Point& point) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "bodies/rigid_frames.h"
 #include "core/yaml.h"
 #include "identification/flexible_modes.h"
 #include "identification/mode_set_of.h"
@@ -14,6 +15,10 @@ namespace {
 
 /// The ratios that the scene gives; those of the modes where it gives none.
 void set_damping(const Scene::Body& body, ModeSet& modes) {
+  if (const auto& rayleigh = body.flexible->rayleigh) {
+    modes.damping_ratio = rayleigh->ratios(modes.omega);
+    return;
+  }
   if (const auto& ratio = body.flexible->common_damping) modes.damping_ratio.setConstant(*ratio);
   const std::vector<double>& ratios = body.flexible->damping;
   if (ratios.empty()) return;
@@ -34,7 +39,7 @@ const std::vector<int>& nodes_of(const Scene::StaticNodes& nodes, const std::vec
 FlexibleModes model_modes_of(const Scene::Flexible& flexible, const std::vector<int>& interfaces) {
   const auto reduce = [&](const AnalyticalModel& model) {
     return flexible_modes(model, flexible.modes, nodes_of(flexible.attachment, interfaces),
-                          nodes_of(flexible.constraint, interfaces));
+                          nodes_of(flexible.constraint, interfaces), flexible.modes_of);
   };
   if (flexible.model) return reduce(*flexible.model);
   const Scene::Block& b = *flexible.block;
@@ -52,7 +57,9 @@ std::string static_text(const Scene::StaticNodes& nodes, const std::vector<int>&
 std::string choice_text(const Scene::Flexible& flexible, const std::vector<int>& interfaces,
                         const FlexibleModes& modes) {
   std::string text = flexible.automatic ? "automatic: " : "";
-  text += describe(flexible.modes) + static_text(flexible.attachment, interfaces, "attachment") +
+  const bool held = flexible.modes_of == NormalModes::of_held_interfaces;
+  text += describe(flexible.modes, held ? "fixed-interface" : "normal") +
+          static_text(flexible.attachment, interfaces, "attachment") +
           static_text(flexible.constraint, interfaces, "constraint");
   if (modes.left_out > 0)
     text +=
@@ -60,7 +67,30 @@ std::string choice_text(const Scene::Flexible& flexible, const std::vector<int>&
   return text;
 }
 
+/// With what rigid frames make of the modes.
+BodyModes table_of(const Scene::Body& body, std::string choice, const FlexibleModes& modes,
+                   const std::vector<int>& interfaces) {
+  const std::vector<InterfaceFrame> rigid = rigid_frames(*body.flexible);
+  if (rigid.empty()) return {body.name, std::move(choice), mode_table(modes.set, modes.kinds, interfaces)};
+  const ModeSet left = as_modes(with_rigid_frames(shapes_of(modes.set), rigid));
+  choice += fmt::format("; {} rigid frame{} {} of {}", rigid.size(),
+                        rigid.size() == 1 ? " leaves" : "s leave", left.mode_count(), modes.set.mode_count());
+  return {body.name, std::move(choice),
+          mode_table(left, inherited_kinds(left, modes.set, modes.kinds), interfaces)};
+}
+
 }  // namespace
+
+InterfaceFrame interface_frame(const Scene::Frame& frame) {
+  return {frame.name, frame.nodes, frame.weights};
+}
+
+std::vector<InterfaceFrame> rigid_frames(const Scene::Flexible& flexible) {
+  std::vector<InterfaceFrame> rigid;
+  for (const Scene::Frame& frame : flexible.frames)
+    if (frame.rigid) rigid.push_back(interface_frame(frame));
+  return rigid;
+}
 
 ModeSet ModeCompiler::modes_of(int index) {
   const Scene::Body& body = scene_.bodies[static_cast<std::size_t>(index)];
@@ -81,7 +111,7 @@ ModeSet ModeCompiler::modes_of(int index) {
     return 0;
   });
   set_damping(body, modes.set);
-  tables.push_back({body.name, std::move(choice), mode_table(modes.set, modes.kinds, interfaces)});
+  tables.push_back(within(body.where, [&] { return table_of(body, std::move(choice), modes, interfaces); }));
   return std::move(modes.set);
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "bodies/interface_frame.h"
 #include "bodies/mode_set.h"
 #include "identification/identify.h"
 #include "identification/mode_table.h"
@@ -23,12 +24,17 @@ struct BodyModes {
   std::vector<ModeRow> modes;
 };
 
+InterfaceFrame interface_frame(const Scene::Frame& frame);
+/// Those of a body whose nodes keep their distances.
+std::vector<InterfaceFrame> rigid_frames(const Scene::Flexible& flexible);
+
 /// Modes of the flexible bodies of a scene.
 class ModeCompiler {
  public:
   explicit ModeCompiler(const Scene& scene) : scene_(scene) {}
 
-  /// Modes of a body (index into `Scene::bodies`) with their damping.
+  /// Modes of a body (index into `Scene::bodies`) with their damping, its rigid frames left out. The table has them
+  /// as the frames change them.
   /// @throws InputError naming the place in the scene file
   ModeSet modes_of(int body);
   /// Geometric stiffening of these modes (ShapeSet::stiffening); empty where the scene asks for none.

@@ -6,6 +6,9 @@ namespace wishbone {
 
 std::vector<int> interface_nodes(const Scene& scene, int body) {
   std::set<int> nodes;
+  if (const auto& flexible = scene.bodies[static_cast<std::size_t>(body)].flexible)
+    for (const Scene::Frame& frame : flexible->frames)
+      if (frame.rigid) nodes.insert(frame.nodes.begin(), frame.nodes.end());
   const auto note = [&](const Scene::Point& point) {
     if (point.body != body) return;
     if (point.node != 0) nodes.insert(point.node);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "bodies/rayleigh_damping.h"
 #include "core/function.h"
 #include "core/source.h"
 #include "core/spatial.h"
@@ -54,11 +55,12 @@ struct Scene {
     bool empty() const { return !interfaces && ids.empty(); }
   };
 
-  /// A frame over several nodes of a body, which follows them in the mean.
+  /// A frame over several nodes of a body, which follows them in the mean, or to which they are tied.
   struct Frame {
     std::string name;
     std::vector<int> nodes;
     std::vector<double> weights;  ///< of each node; empty: all one
+    bool rigid = false;           ///< the nodes keep their distances
     Vector3 centre_B =
         Vector3::Zero();  ///< weighted centre of the nodes, body axes, from the mass centre [m]
   };
@@ -77,14 +79,16 @@ struct Scene {
     std::shared_ptr<const AnalyticalModel> model;              ///< instead of a block; masses are lumped
     std::shared_ptr<const IdentificationTask> identification;  ///< null: modes of the block or model
     bool is_rigid = false;                                     ///< no modes at all
-    ModeChoice modes;                    ///< normal modes kept of those of the block or model
+    ModeChoice modes;  ///< normal modes kept of those of the block or model
+    NormalModes modes_of = NormalModes::of_free_body;
     bool automatic = false;              ///< `modes` and `attachment` are the program's choice
     StaticNodes attachment, constraint;  ///< beside normal modes
     std::vector<double> damping;  ///< damping ratio of each kept mode; empty: as identified, or one for all
     /// One damping ratio for all modes, when their number is not known yet.
     std::optional<double> common_damping;
-    std::optional<FixedAxes> fixed_axes;  ///< node ids; empty: mean axes
-    bool source_terms = false;            ///< inertial coupling as in the source, not all that there is
+    std::optional<RayleighDamping> rayleigh;  ///< instead of damping ratios
+    std::optional<FixedAxes> fixed_axes;      ///< node ids; empty: mean axes
+    bool source_terms = false;                ///< inertial coupling as in the source, not all that there is
     std::vector<Frame> frames;
     std::optional<Stiffening> stiffening;
   };

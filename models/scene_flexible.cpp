@@ -65,8 +65,10 @@ ListedModes read_list(const Value& value, int elastic) {
   return listed;
 }
 
-/// {lowest: N}, {below: F} or {list: [N, ...]}.
+/// N, all, {lowest: N}, {below: F} or {list: [N, ...]}.
 ModeChoice read_choice(const Value& value, int elastic) {
+  if (value.is_word("all")) return AllModes{};
+  if (looks_like_number(value.node()->text)) return LowestModes{value.integer(1, elastic)};
   const Mapping keys(value, {"lowest", "below", "list"});
   if (value.node()->entries.size() != 1)
     keys.refuse("one of 'lowest', 'below' and 'list' chooses the modes", "remove the others");
@@ -110,20 +112,25 @@ void take_automatic(const Mapping& keys, Scene::Flexible& flexible) {
                        "remove the key");
 }
 
+/// {fixed_interface: ...}: normal modes with the interfaces held, and their constraint modes.
+void take_fixed_interface(const Mapping& keys, const Value& modes, int elastic, Scene::Flexible& flexible) {
+  const Mapping held(modes, {"fixed_interface"});
+  flexible.modes_of = NormalModes::of_held_interfaces;
+  flexible.modes = read_choice(held.required("fixed_interface"), elastic);
+  if (!keys.has("constraint")) flexible.constraint = {true, {}};
+}
+
 /// Normal modes of a block or model, and static shapes beside them.
 void take_model_modes(const Mapping& keys, const Value& modes, Scene::Flexible& flexible) {
   const int elastic = 3 * static_cast<int>(flexible.node_ids.size()) - 6;
-  const bool is_number = looks_like_number(modes.node()->text);
-  if (modes.is_mapping())
-    flexible.modes = read_choice(modes, elastic);
-  else if (modes.is_word("all"))
-    flexible.modes = AllModes{};
+  if (has_any(modes, {"fixed_interface"}))
+    take_fixed_interface(keys, modes, elastic, flexible);
   else if (modes.is_word("automatic"))
     take_automatic(keys, flexible);
   else if (modes.is_word("none"))
     flexible.is_rigid = true;
-  else if (is_number)
-    flexible.modes = LowestModes{modes.integer(1, elastic)};
+  else if (modes.is_mapping() || modes.is_word("all") || looks_like_number(modes.node()->text))
+    flexible.modes = read_choice(modes, elastic);
   else
     modes.refuse_choice({"all", "automatic", "none"}, "the choices of modes");
 
@@ -151,8 +158,25 @@ std::optional<int> known_count(const Scene::Flexible& flexible) {
   return std::nullopt;
 }
 
-/// One ratio for all modes, or a list of one per mode, the length of which is checked where it is known already.
+/// {mass: alpha, stiffness: beta}.
+RayleighDamping read_rayleigh(const Value& value) {
+  const Mapping keys(value, {"mass", "stiffness"});
+  RayleighDamping rayleigh;
+  if (const auto mass = keys.optional("mass")) rayleigh.mass = mass->non_negative(kRate);
+  if (const auto stiffness = keys.optional("stiffness")) rayleigh.stiffness = stiffness->non_negative(kTime);
+  if (!keys.has("mass") && !keys.has("stiffness"))
+    value.refuse("damping in proportion to mass and stiffness needs one of the two",
+                 "write {mass: ... 1/s, stiffness: ... s}, or a damping ratio");
+  return rayleigh;
+}
+
+/// One ratio for all modes, a list of one per mode, the length of which is checked where it is known already, or what gives
+/// each mode its ratio.
 void take_damping(const Value& value, std::optional<int> count, Scene::Flexible& flexible) {
+  if (value.is_mapping()) {
+    flexible.rayleigh = read_rayleigh(value);
+    return;
+  }
   if (!value.is_list()) {
     const double ratio = value.non_negative(kRatio);
     if (count)
@@ -209,14 +233,14 @@ void take_nodes(const Mapping& keys, bool needed, Scene::Flexible& flexible, Sce
     take_block(read_block(keys.required("block"), keys.required("material")), flexible);
 }
 
-/// {nodes: [...], weights: [...]}.
+/// {nodes: [...], weights: [...], rigid: true}.
 Scene::Frame read_frame(const std::string& name, const Value& value, const Scene::Flexible& flexible) {
   Scene::Frame frame;
   frame.name = name;
   const auto place = [&](int id) {
     return std::find(flexible.node_ids.begin(), flexible.node_ids.end(), id);
   };
-  const Mapping keys(value, {"nodes", "weights"});
+  const Mapping keys(value, {"nodes", "weights", "rigid"});
   const Value nodes = keys.required("nodes");
   for (const Value& item : nodes.list()) {
     const int node = read_node(item, flexible.node_ids);
@@ -231,6 +255,7 @@ Scene::Frame read_frame(const std::string& name, const Value& value, const Scene
           fmt::format("there are {} weights for {} nodes", frame.weights.size(), frame.nodes.size()),
           "give one weight per node, or leave them out for equal ones");
   }
+  if (const auto rigid = keys.optional("rigid")) frame.rigid = rigid->boolean();
 
   Matrix3X position(3, static_cast<Eigen::Index>(frame.nodes.size()));
   for (std::size_t i = 0; i < frame.nodes.size(); ++i)
@@ -285,7 +310,8 @@ Scene::Flexible read_flexible(const Value& value, Scene& scene) {
                              "damping", "axes", "inertia", "frames", "stiffening"});
   Scene::Flexible flexible;
   const Value modes = keys.required("modes");
-  const bool identified = modes.is_mapping() && !has_any(modes, {"lowest", "below", "list"});
+  const bool identified =
+      modes.is_mapping() && !has_any(modes, {"lowest", "below", "list", "fixed_interface"});
   take_nodes(keys, !identified, flexible, scene);
   if (identified) {
     refuse_static_shapes(keys);

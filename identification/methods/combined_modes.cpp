@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 #include "core/error.h"
@@ -48,6 +49,7 @@ class Remainder {
 
   /// Appends what the shapes add.
   void add(MatrixX X) {
+    if (X.cols() == 0) return;
     X = with_unit_energy(std::move(X));
     if (X.cols() == 0) return;
     project(X);
@@ -147,31 +149,46 @@ const char* to_string(ModeKind kind) {
     case ModeKind::attachment:
       return "attachment";
     case ModeKind::constraint:
+      return "constraint";
+    case ModeKind::fixed_interface:
       break;
   }
-  return "constraint";
+  return "fixed-interface";
+}
+
+ModeKind largest_share(const VectorX& energy, const std::vector<ModeKind>& kinds) {
+  std::map<ModeKind, double> sum;
+  for (Index i = 0; i < energy.size(); ++i) sum[kinds[static_cast<std::size_t>(i)]] += energy[i];
+  return std::max_element(sum.begin(), sum.end(),
+                          [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
 }
 
 CombinedModes combined_modes(const SparseMatrix& K, const SparseMatrix& M, const MatrixX& rigid,
-                             const Modes& kept, const MatrixX& attachment, const MatrixX& constraint) {
+                             const Modes& kept, const MatrixX& attachment, const MatrixX& constraint,
+                             const MatrixX& fixed_interface) {
   Remainder remainder(K, M, rigid, kept);
-  remainder.add(attachment);
-  const Index of_attachment = remainder.basis().cols();
-  remainder.add(constraint);
+  std::vector<ModeKind> group;  // of each column of E
+  Index given = 0;
+  for (const auto& [kind, shapes] : {std::pair(ModeKind::attachment, &attachment),
+                                     {ModeKind::constraint, &constraint},
+                                     {ModeKind::fixed_interface, &fixed_interface}}) {
+    remainder.add(*shapes);
+    group.resize(static_cast<std::size_t>(remainder.basis().cols()), kind);
+    given += shapes->cols();
+  }
   const Index added = remainder.basis().cols();
-  const Index left_out = attachment.cols() + constraint.cols() - added;
   if (added == 0)
-    return {kept, std::vector<ModeKind>(static_cast<std::size_t>(kept.count()), ModeKind::normal), left_out};
+    return {kept, std::vector<ModeKind>(static_cast<std::size_t>(kept.count()), ModeKind::normal), given};
 
   check_uncoupled(K, kept, remainder.basis());
   MatrixX Y;
   const Modes modes = flexibility_ritz(K, M, remainder, Y);
   std::vector<ModeKind> kinds;
-  for (Index j = 0; j < added; ++j)  // shares of strain energy, for y^T y = y^T E^T K E y
-    kinds.push_back(Y.col(j).head(of_attachment).squaredNorm() >= 0.5 ? ModeKind::attachment
-                                                                      : ModeKind::constraint);
+  for (Index j = 0; j < added; ++j)  // strain energy y^T E^T K E y = y^T y
+    kinds.push_back(largest_share(Y.col(j).cwiseAbs2(), group));
   CombinedModes all = merged(kept, modes, kinds);
-  all.left_out = left_out;
+  all.left_out = given - added;
   return all;
 }
 

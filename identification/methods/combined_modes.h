@@ -9,11 +9,15 @@ namespace wishbone {
 
 /// Where a mode of a flexible body comes from.
 enum class ModeKind {
-  normal,      ///< a mode of the free body
-  attachment,  ///< what a force on an interface freedom adds (attachment_modes.h)
-  constraint   ///< what a displacement of an interface freedom adds (constraint_modes.h)
+  normal,          ///< a mode of the free body
+  attachment,      ///< what a force on an interface freedom adds (attachment_modes.h)
+  constraint,      ///< what a displacement of an interface freedom adds (constraint_modes.h)
+  fixed_interface  ///< what a vibration with the interfaces held adds (fixed_interface_modes.h)
 };
 const char* to_string(ModeKind kind);
+
+/// The kind that has most of a mode's energy, which parts of these kinds share.
+ModeKind largest_share(const VectorX& energy, const std::vector<ModeKind>& kinds);
 
 /// Modes of a reduced body, of unit modal mass and with the diagonal stiffness diag(lambda).
 struct CombinedModes {
@@ -37,11 +41,13 @@ struct CombinedModes {
 /// whose frequencies may be 10^4 times below the highest.
 ///
 /// K, M (n x n); `rigid` Psi_0 (n x k) M-orthonormal; `kept` modes of K and M, of unit modal mass and orthogonal to
-/// Psi_0; `attachment` and `constraint` (n x any) static shapes of any scale, of which there may be none.
+/// Psi_0; `attachment` and `constraint` (n x any) static shapes of any scale, of which there may be none, and likewise
+/// modes of the body held at its interfaces, `fixed_interface`.
 /// Throws InputError if the kept modes are no modes of K and M.
 ///
 /// Source: R. R. Craig, A. J. Kurdila, Fundamentals of Structural Dynamics, 2nd ed. 2006, chapter 17.
 CombinedModes combined_modes(const SparseMatrix& K, const SparseMatrix& M, const MatrixX& rigid,
-                             const Modes& kept, const MatrixX& attachment, const MatrixX& constraint);
+                             const Modes& kept, const MatrixX& attachment, const MatrixX& constraint,
+                             const MatrixX& fixed_interface = {});
 
 }  // namespace wishbone

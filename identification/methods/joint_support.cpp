@@ -9,7 +9,7 @@
 #include <numeric>
 
 #include "core/error.h"
-#include "identification/methods/null_space.h"
+#include "core/null_space.h"
 
 namespace wishbone {
 namespace {

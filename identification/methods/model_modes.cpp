@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/null_space.h"
 #include "identification/methods/lowest_modes.h"
-#include "identification/methods/null_space.h"
+#include "identification/methods/modes_below.h"
 
 namespace wishbone {
 namespace {
@@ -44,18 +45,37 @@ Modes solve_sparse(const SparseMatrix& K, const SparseMatrix& M, std::optional<E
   return count ? modes.lowest(std::min(*count, modes.count())) : modes;
 }
 
+/// The model on its support over the motions x = N y that the joints leave.
+struct Supported {
+  SparseMatrix N;  ///< 0 x 0 without joints: y = x
+  SparseMatrix K, M;
+
+  Supported(const SparseMatrix& K_free, const SparseMatrix& M_free, const SupportMatrices& support)
+      : K(K_free + support.K_s), M(M_free + support.M_s) {
+    if (support.D.rows() == 0) return;
+    N = sparse_null_space(support.D);
+    const SparseMatrix N_T = N.transpose();
+    K = SparseMatrix(N_T * K * N);
+    M = SparseMatrix(N_T * M * N);
+  }
+};
+
 }  // namespace
 
 Modes model_modes(const SparseMatrix& K, const SparseMatrix& M, const SupportMatrices& support,
                   std::optional<Eigen::Index> count) {
-  const SparseMatrix K_t = K + support.K_s, M_t = M + support.M_s;
-  if (support.D.rows() == 0) return solve_sparse(K_t, M_t, count);
-  const SparseMatrix N = sparse_null_space(support.D);
-  const SparseMatrix N_T = N.transpose();
-  Modes modes = solve_sparse(N_T * K_t * N, N_T * M_t * N, count);
-  modes.shapes = N * modes.shapes;
+  const Supported held(K, M, support);
+  Modes modes = solve_sparse(held.K, held.M, count);
+  if (held.N.rows() == 0) return modes;
+  modes.shapes = held.N * modes.shapes;
   fix_signs(modes.shapes);
   return modes;
+}
+
+Eigen::Index model_modes_below(const SparseMatrix& K, const SparseMatrix& M, const SupportMatrices& support,
+                               double lambda) {
+  const Supported held(K, M, support);
+  return modes_below(held.K, held.M, lambda);
 }
 
 }  // namespace wishbone

@@ -15,6 +15,10 @@ namespace wishbone {
 Modes model_modes(const SparseMatrix& K, const SparseMatrix& M, const SupportMatrices& support,
                   std::optional<Eigen::Index> count = {});
 
+/// How many of them lie below `lambda` [rad2/s2] (modes_below.h).
+Eigen::Index model_modes_below(const SparseMatrix& K, const SparseMatrix& M, const SupportMatrices& support,
+                               double lambda);
+
 inline constexpr Eigen::Index kMostDenseFreedoms = 6000;
 
 }  // namespace wishbone

@@ -7,6 +7,7 @@
 
 #include "bodies/nodal_shapes.h"
 #include "identification/free_free_modes.h"
+#include "identification/nodal_model.h"
 
 namespace wishbone::flexible_forms {
 namespace {

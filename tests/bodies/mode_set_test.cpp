@@ -54,6 +54,17 @@ TEST(ModeSet, FindsNodesById) {
   EXPECT_THROW(warping_square().node_index(3), InputError);
 }
 
+TEST(ElasticComplement, CompletesTheMassWeightedRigidMotions) {
+  const VectorX mass{{0.3, 2, 7, 1.1, 0.4}};
+  Matrix3X position = Matrix3X::NullaryExpr(
+      3, 5, [](Eigen::Index i, Eigen::Index j) { return std::sin(1 + 3.7 * i + 1.3 * j * j); });
+  position.colwise() -= Vector3(position * mass / mass.sum());
+  const VectorX root_mass = mass.transpose().replicate(3, 1).reshaped().cwiseSqrt();
+  MatrixX basis(15, 15);
+  basis << root_mass.asDiagonal() * rigid_body_modes(mass, position), elastic_complement(mass, position);
+  EXPECT_LE((basis.transpose() * basis - MatrixX::Identity(15, 15)).cwiseAbs().maxCoeff(), 1e-14);
+}
+
 TEST(ModeSet, KeepsItsLowestModes) {
   const ModeSet rigid = warping_square().lowest(0);
   EXPECT_EQ(rigid.mode_count(), 0);

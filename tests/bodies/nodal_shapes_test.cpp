@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "identification/free_free_modes.h"
+#include "identification/nodal_model.h"
 
 namespace wishbone {
 namespace {

@@ -97,8 +97,7 @@ TEST(SpinStiffening, TurnsTheLoadsWithTheBody) {
   for (Eigen::Index i = 0; i < 8; ++i) {
     const Vector3 s = mesh.nodes.col(i), f = set.node_mass[i] * Vector3(0, s.y(), s.z());
     for (int a = 0; a < 3; ++a)
-      for (int b = 0; b < 3; ++b)
-        expected(a, b) += Vector3::Unit(a).cross(s).dot(Vector3::Unit(b).cross(f));
+      for (int b = 0; b < 3; ++b) expected(a, b) += Vector3::Unit(a).cross(s).dot(Vector3::Unit(b).cross(f));
   }
   EXPECT_LT((K.leftCols<3>() - expected).norm(), 1e-10 * expected.norm());
 }

@@ -229,6 +229,13 @@ constexpr Broken kBrokenScenes[] = {
            "wanted, "
            "this is angular velocity [rad/s] (got '50 rad/s')\n"
            "  give it in Hz, or in a unit that converts to it"},
+    Broken{"NoModesOfHeldInterfaces", "modes: all", "modes: {fixed_interface: 0}",
+           "scene.yaml:19:32: bodies.beam.flexible.modes.fixed_interface: error: a whole number from 1 to 30 "
+           "is wanted here (got '0')\n"
+           "  give one of them"},
+    Broken{"FreeModesAndModesOfHeldInterfaces", "modes: all", "modes: {fixed_interface: 2, lowest: 3}",
+           "scene.yaml:19:35: bodies.beam.flexible.modes: error: unknown key 'lowest'\n"
+           "  the keys here are: fixed_interface"},
     Broken{"AutomaticWithoutLimit", "modes: all", "modes: automatic",
            "scene.yaml:16:5: bodies.beam.flexible: error: the key 'below' is missing\n"
            "  add 'below: ...' here"},
@@ -276,6 +283,21 @@ constexpr Broken kBrokenScenes[] = {
         "NegativeDamping", "damping: 1 %", "damping: -1 %",
         "scene.yaml:20:16: bodies.beam.flexible.damping: error: the ratio must not be negative (got '-1 %')\n"
         "  give zero or a value above it"},
+    Broken{"DampingOfNothing", "damping: 1 %", "damping: {}",
+           "scene.yaml:20:7: bodies.beam.flexible.damping: error: damping in proportion to mass and "
+           "stiffness needs one of the two\n"
+           "  write {mass: ... 1/s, stiffness: ... s}, or a damping ratio"},
+    Broken{"NegativeMassDamping", "damping: 1 %", "damping: {mass: -1}",
+           "scene.yaml:20:23: bodies.beam.flexible.damping.mass: error: the rate must not be negative (got "
+           "'-1')\n"
+           "  give zero or a value above it"},
+    Broken{"StiffnessDampingAsAStiffness", "damping: 1 %", "damping: {stiffness: 2 kN/m}",
+           "scene.yaml:20:28: bodies.beam.flexible.damping.stiffness: error: wrong dimension: time [s] is "
+           "wanted, this is stiffness [N/m] (got '2 kN/m')\n"
+           "  give it in s, or in a unit that converts to it"},
+    Broken{"UnknownProportionOfDamping", "damping: 1 %", "damping: {mass: 1, stifness: 1 ms}",
+           "scene.yaml:20:26: bodies.beam.flexible.damping: error: unknown key 'stifness'\n"
+           "  did you mean 'stiffness'?"},
     Broken{"VelocityOfCarriedBody", "position: [2, 0, 0]", "position: [2, 0, 0], velocity: [1, 0, 0]",
            "scene.yaml:10:3: bodies.wheel: error: the velocity of the body follows from the joint 'slide'\n"
            "  remove 'velocity' and 'angular_velocity'; give the joint a 'speed' if it moves"},
@@ -392,6 +414,12 @@ constexpr Broken kBrokenScenes[] = {
            "scene.yaml:21:56: bodies.beam.flexible.frames.tip.weights[2]: error: the ratio must be positive "
            "(got '0')\n"
            "  give a value above zero"},
+    Broken{
+        "FrameThatIsPerhapsRigid", "damping: 1 %",
+        "damping: 1 %\n      frames: {tip: {nodes: [9, 10, 11], rigid: perhaps}}",
+        "scene.yaml:21:49: bodies.beam.flexible.frames.tip.rigid: error: true or false is wanted here (got "
+        "'perhaps')\n"
+        "  write true or false"},
     Broken{"FrameWithoutNodes", "damping: 1 %", "damping: 1 %\n      frames: {tip: {}}",
            "scene.yaml:21:21: bodies.beam.flexible.frames.tip: error: the key 'nodes' is missing\n"
            "  add it"},

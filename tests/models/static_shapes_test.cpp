@@ -116,6 +116,28 @@ TEST_F(StaticShapes, ConstraintModesAreTakenToo) {
       "  name at least three nodes that do not lie on one line, or take attachment modes");
 }
 
+TEST_F(StaticShapes, ModesOfHeldInterfacesComeWithTheirConstraintModes) {
+  const CompiledScene compiled = compile(load("modes: {fixed_interface: 7}"));
+  const std::vector<ModeKind> kinds = kinds_of(compiled);
+  EXPECT_EQ(kinds.size(), 7u + 6u);  // twelve displacements less six of rigid motion
+  EXPECT_GE(std::count(kinds.begin(), kinds.end(), ModeKind::fixed_interface), 1);
+  EXPECT_EQ(std::count(kinds.begin(), kinds.end(), ModeKind::normal), 0);
+  EXPECT_EQ(compiled.modes.at(0).choice,
+            "the 7 lowest fixed-interface modes and constraint modes of 4 interfaces; 6 static shapes add no "
+            "more");
+  const ModeSet found = compiled_modes(compiled);
+  const auto omega = [&](std::string_view modes) { return compiled_modes(compile(load(modes))).omega; };
+  EXPECT_EQ(omega("modes: {fixed_interface: {lowest: 7}}"), found.omega);
+  EXPECT_EQ(omega("modes: {fixed_interface: 7}\n      constraint: [1, 4, 7, 12]"), found.omega);
+  EXPECT_GT(omega("modes: {fixed_interface: {below: 100 kHz}}").size(), 13);
+  // Ritz's frequencies lie above those of the full body, and are these with all modes
+  const VectorX truth = omega("modes: all");
+  for (int j = 0; j < 13; ++j) EXPECT_GE(found.omega[j], truth[j] * (1 - 1e-9));
+  const VectorX all = omega("modes: {fixed_interface: all}");
+  ASSERT_EQ(all.size(), 30);
+  EXPECT_LE((all - truth).cwiseQuotient(truth).cwiseAbs().maxCoeff(), 1e-9);
+}
+
 TEST_F(StaticShapes, AutomaticIsAllBelowALimitAndTheAttachmentModesOfEveryInterface) {
   const ModeSet all = compiled_modes(compile(load("modes: all")));
   const double limit = (all.omega[4] + all.omega[5]) / (4 * std::numbers::pi);

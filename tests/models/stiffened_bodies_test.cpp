@@ -58,8 +58,8 @@ TEST_F(StiffenedBodies, AreStiffenedAboutThePointThatTheSceneNames) {
   const CompiledScene compiled = compile(load());
   const HexahedralMesh mesh = make_block({1, 0.1, 0.05}, {3, 1, 1});
   const IsotropicMaterial material{20e6, 0.3, 1000};
-  const MatrixX expected = spin_stiffening(mesh, material, free_free_modes(mesh, material),
-                                           {{1, 2, 3, 4}, Vector3(-0.6, 0, 0)});
+  const MatrixX expected =
+      spin_stiffening(mesh, material, free_free_modes(mesh, material), {{1, 2, 3, 4}, Vector3(-0.6, 0, 0)});
   const MatrixX& stiffening = compiled.system.flexible[0].modal.set().stiffening;
   ASSERT_EQ(stiffening.cols(), expected.cols());
   EXPECT_LT((stiffening - expected).norm(), 1e-10 * expected.norm());
@@ -88,7 +88,8 @@ TEST_F(StiffenedBodies, AreRefusedWithoutNodesOrElements) {
     return files_.relative(message_of<InputError>([&] { load(replacement, old); }));
   };
   EXPECT_EQ(message("held: [1, 99]", "held: [1, 2, 3, 4]"),
-            "scene.yaml:12:30: bodies.blade.flexible.stiffening.held[2]: error: the body has no such node (got '99')\n"
+            "scene.yaml:12:30: bodies.blade.flexible.stiffening.held[2]: error: the body has no such node "
+            "(got '99')\n"
             "  its nodes are 1 to 16");
   EXPECT_THAT(message("held: []", "held: [1, 2, 3, 4]"), HasSubstr("there are no nodes in the list"));
   EXPECT_THAT(message("stiffening: yes", "stiffening: {held: [1, 2, 3, 4], centre: [0, 0, 0]}"),

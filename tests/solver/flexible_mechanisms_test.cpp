@@ -1,6 +1,9 @@
-// Flexible bodies in mechanisms: conserved quantities, hung against cut joints, the rigid limit.
+// Flexible bodies in mechanisms: conserved quantities, hung against cut joints, the rigid limit, damping.
 #include <gtest/gtest.h>
 
+#include "bodies/nodal_shapes.h"
+#include "bodies/rayleigh_damping.h"
+#include "identification/nodal_model.h"
 #include "solver/forward_dynamics.h"
 #include "solver/mechanisms.h"
 
@@ -125,6 +128,65 @@ TEST(FlexibleMechanisms, ABlockWithoutModesIsARigidBody) {
   ASSERT_EQ(b.summary.status, TransientSummary::Status::complete) << b.summary.message;
   EXPECT_LT((a.last().q - b.last().q).cwiseAbs().maxCoeff(), 1e-11);
   EXPECT_LT((a.last().v - b.last().v).cwiseAbs().maxCoeff(), 1e-11);
+}
+
+// ---- damping in proportion to mass and stiffness
+
+constexpr int kAllModes = 42;
+constexpr RayleighDamping kDamping{20.0, 1e-4};
+
+ModeSet damped_block() {
+  ModeSet modes = block_modes(kAllModes);
+  modes.damping_ratio = kDamping.ratios(modes.omega);
+  return modes;
+}
+
+/// The damped block in modal and nodal form.
+std::vector<ShapeSet> damped_forms() {
+  const NodalModel model = nodal_model(damped_block());
+  return {shapes_of(damped_block()), mean_axis_shapes(model), fixed_axis_shapes(model, {1, 13, 3})};
+}
+
+TEST(FlexibleMechanisms, AModeOfADampedBlockDecaysAtItsClosedFormRate) {
+  // z'' + (alpha + beta omega^2) z' + omega^2 z = 0, z = 0 and z' = v at first
+  const ModeSet modes = damped_block();
+  constexpr double v = 2;
+  for (const int j : {0, 2}) {
+    const double omega = modes.omega[j], decay = (kDamping.mass + kDamping.stiffness * omega * omega) / 2;
+    const double damped_omega = std::sqrt(omega * omega - decay * decay);
+    for (const ShapeSet& set : damped_forms()) {
+      if (!set.mean_axes) continue;  // fixed axes turn with the mode
+      SystemBuilder b;
+      b.add_flexible_body("block", set, {});
+      Built m = build(std::move(b));
+      const int first = m.system.flexible[0].z_rate_start;
+      const MatrixX M_shapes =
+          set.shapes.transpose() * set.node_mass.transpose().replicate(3, 1).reshaped().asDiagonal();
+      m.state.v.segment(first, kAllModes) = M_shapes * (v * modes.shapes.col(j));
+      const Trajectory run = simulate(m.system, m.state, 0.3, 0.05, 1e-11);
+      ASSERT_EQ(run.summary.status, TransientSummary::Status::complete) << run.summary.message;
+      for (const State& state : run.states) {
+        const double z = v / damped_omega * std::exp(-decay * state.t) * std::sin(damped_omega * state.t);
+        const VectorX delta = set.shapes * state.q.tail(kAllModes);
+        EXPECT_LT((delta - z * modes.shapes.col(j)).norm(), 1e-7 * v / omega * modes.shapes.col(j).norm());
+      }
+      EXPECT_LT(std::exp(-decay * 0.3), 0.5);
+    }
+  }
+}
+
+TEST(FlexibleMechanisms, DampingOfDeflectionsLeavesBothMomentaOfAFlightAsTheyAre) {
+  for (const ShapeSet& set : damped_forms()) {
+    SystemBuilder b;
+    const int block = b.add_flexible_body("block", set, {});
+    b.set_velocity(block, {3, 1, -2}, {1.5, -0.8, 2.5});
+    Built m = build(std::move(b));
+    excite(m);
+    const Trajectory run = simulate(m.system, m.state, 0.5, 0.25, 1e-10);
+    expect_conserved(m, run, 1e-8);  // the energy with what damping has taken
+    const auto vibration = [&](const State& state) { return state.v.tail(kAllModes).norm(); };
+    EXPECT_LT(vibration(run.last()), 0.02 * vibration(m.state));
+  }
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "identification/methods/null_space.h"
+#include "core/null_space.h"
 
 #include <Eigen/QR>
 
