@@ -110,6 +110,18 @@ int read_node(const Value& node, const Scene::Body& body) {
   return number;
 }
 
+Vector3 frame_place(const Scene::Body& body, int frame) {
+  return body.X_DB * body.flexible->frames[static_cast<std::size_t>(frame)].centre_B;
+}
+
+int read_frame_name(const Value& frame, const Scene::Body& body) {
+  if (!body.flexible || body.flexible->frames.empty()) {
+    frame.refuse(fmt::format("the body '{}' has no frames", body.name),
+                 "describe it under 'frames' of its 'flexible'");
+  }
+  return index_of(body.flexible->frames, frame, fmt::format("the frames of '{}'", body.name));
+}
+
 void read_bodies(const Value& section, Scene& scene) {
   for (const auto& [name, value] : section.named()) {
     if (name == "ground")
