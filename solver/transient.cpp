@@ -14,6 +14,8 @@ namespace wishbone {
 namespace {
 
 constexpr long kPatience = 10'000;  // steps between two looks at the progress
+/// A redundant row that is open by more follows from no others: the closures contradict each other [m, rad].
+constexpr double kContradiction = 1e-6;
 
 /// One run: the clock of outputs, the list of stops, and the integrator between them.
 class Run {
@@ -122,7 +124,37 @@ class Run {
   void accept(double t, TransientSummary& summary) {
     if (counts_turns_) remember_angles(system_, state_, ws_);
     if (system_.n_rows == 0) return;
-    if (integrator_->outlived()) restart(t, summary);
+    if (integrator_->outlived()) {
+      restart(t, summary);
+    } else {
+      check_redundant_rows(t);
+    }
+  }
+
+  /// The redundant row that is open most, or -1 when all are closed.
+  int open_redundant_row() const {
+    int open = -1;
+    double gap = kContradiction;
+    for (const int row : redundant_rows(system_, ws_.closure.kept)) {
+      if (!(std::abs(ws_.Phi[row]) > gap)) continue;
+      open = row;
+      gap = std::abs(ws_.Phi[row]);
+    }
+    return open;
+  }
+
+  /// Where the rank has not grown, redundant rows stay closed with the others, unless a motion is prescribed that the mechanism
+  /// cannot follow. The last evaluation may lie off the closures by the error of the step; the projected state does not.
+  void check_redundant_rows(double t) {
+    if (open_redundant_row() < 0) return;
+    interpolate(t);
+    const int row = open_redundant_row();
+    if (row < 0) return;
+    throw NumericsError(
+        {fmt::format("t = {:.9g} s, {}", t, system_.row_name(row)),
+         "the joints contradict each other: no pose near this one closes them all",
+         fmt::format("open by {:.3g} (m or rad)", std::abs(ws_.Phi[row])),
+         "look for a prescribed motion that the mechanism cannot follow, or a joint out of line"});
   }
 
   void check_limits(const IntegratorOptions& options, double t) const {

@@ -20,6 +20,7 @@ namespace wishbone {
 namespace {
 
 using ::testing::Contains;
+using ::testing::HasSubstr;
 using ::testing::Not;
 
 Scene flexible_four_bar(const std::vector<std::string>& overrides) {
@@ -46,6 +47,21 @@ TEST(FlexibleFourBar, LocksAtTheMisalignedJointWhenItsBarsAreRigid) {
   const Plan flexible = plan_of_four_bar({"drive=free"});
   EXPECT_THAT(flexible.redundant_rows, ::testing::IsEmpty());
   EXPECT_EQ(flexible.mobility, flexible.speeds + flexible.elastic_coordinates - flexible.closure_rows);
+}
+
+TEST(FlexibleFourBar, RefusesToBeDrivenWhenItsBarsAreRigid) {
+  // the drive leaves too few freedoms for the rows at C, which are closed at the start alone
+  for (const Form form : {Form::index1, Form::partition, Form::ggl}) {
+    SCOPED_TRACE(to_string(form));
+    CompiledScene compiled = compile(flexible_four_bar({"form=rigid"}));
+    compiled.transient.integrator.form = form;
+    Workspace ws(compiled.system);
+    const TransientSummary summary = run_transient(compiled.system, compiled.initial, compiled.transient, ws,
+                                                   [](const State&, const Work&) {});
+    EXPECT_EQ(summary.status, TransientSummary::Status::failed);
+    EXPECT_THAT(summary.message, HasSubstr("C (tilt about x)"));
+    EXPECT_THAT(summary.message, HasSubstr("contradict"));
+  }
 }
 
 /// What the drive has put in, and what has become of it [J].
