@@ -1,6 +1,7 @@
 // Cost of one evaluation against the number of modes of a flexible body: microseconds of calc_forward_dynamics for a floating
-// block of 1701 nodes that carries two arms, by cut joints or by tree joints. Prints a Markdown table; the smallest of several
-// repetitions counts.
+// block of 1701 nodes that carries two arms, by cut joints or by tree joints. Then the inertia of the block alone (positions and
+// velocities of ModalBody) by node sums and by invariants, and of one of 27 nodes. Prints Markdown tables; the smallest of
+// several repetitions counts.
 //
 //   modal_cost [M]     with a number of modes: evaluates the block with cut joints a thousand times and measures nothing,
 //                      for profilers
@@ -10,6 +11,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 #include <string>
 
@@ -23,7 +25,7 @@ namespace wishbone::bench {
 namespace {
 
 const Vector3 kSize(2.4, 0.4, 0.4);
-const Eigen::Vector3i kDivisions(20, 8, 8);
+const Eigen::Vector3i kDivisions(20, 8, 8), kCoarseDivisions(2, 2, 2);
 
 /// Forms of the inertial terms: a column each.
 struct Column {
@@ -45,8 +47,8 @@ void set_wave(const HexahedralMesh& mesh, int j, Eigen::Ref<VectorX> field) {
 
 /// As many modes as asked for: waves made mass-orthonormal and orthogonal to rigid motion. What an evaluation costs does not
 /// depend on whether they are those of a material.
-ModeSet waves(int count) {
-  const HexahedralMesh mesh = make_block(kSize, kDivisions);
+ModeSet waves(int count, const Eigen::Vector3i& divisions = kDivisions) {
+  const HexahedralMesh mesh = make_block(kSize, divisions);
   ModeSet set;
   set.node_ids = mesh.node_ids;
   set.node_mass = lumped_mass(mesh, 2600);
@@ -110,6 +112,35 @@ void print_table() {
   }
 }
 
+double inertia_microseconds(const ModeSet& modes, InertiaMethod method) {
+  const ModalBody body(modes, {modes.node_ids.front(), modes.node_ids.back()}, {}, InertiaTerms::consistent,
+                       method);
+  ModalBodyState state = body.make_state();
+  const VectorX z = VectorX::Constant(modes.mode_count(), 0.01), zdot = VectorX::Ones(modes.mode_count());
+  const int inner = std::max(1, 20000 / modes.mode_count());
+  const double seconds = least_cpu_seconds([&] {
+    for (int i = 0; i < inner; ++i) {
+      body.set_position(z.data(), state);
+      body.set_velocity(Vector3(1.5, -0.8, 2.5), zdot.data(), state);
+    }
+    return true;
+  });
+  return 1e6 * seconds / inner;
+}
+
+void print_inertia_table(const Eigen::Vector3i& divisions, std::initializer_list<int> counts) {
+  fmt::print("\n| nodes | modes | node sums, us | invariants, us | chosen |\n|---|---|---|---|---|\n");
+  for (const int count : counts) {
+    const ModeSet modes = waves(count, divisions);
+    const bool sums = ModalBody(modes, {modes.node_ids.front(), modes.node_ids.back()}).inertia_method() ==
+                      InertiaMethod::node_sums;
+    fmt::print("| {} | {} | {:.2f} | {:.2f} | {} |\n", modes.node_count(), count,
+               inertia_microseconds(modes, InertiaMethod::node_sums),
+               inertia_microseconds(modes, InertiaMethod::invariants), sums ? "node sums" : "invariants");
+    std::fflush(stdout);
+  }
+}
+
 void evaluate(int count) {
   auto [system, state] = mechanism(waves(count), InertiaTerms::consistent, Arms::cut);
   Workspace ws(system);
@@ -121,9 +152,13 @@ void evaluate(int count) {
 }  // namespace wishbone::bench
 
 int main(int argc, char** argv) {
-  if (argc > 1)
-    wishbone::bench::evaluate(std::stoi(argv[1]));
-  else
-    wishbone::bench::print_table();
+  using namespace wishbone::bench;
+  if (argc > 1) {
+    evaluate(std::stoi(argv[1]));
+    return 0;
+  }
+  print_table();
+  print_inertia_table(kDivisions, {5, 10, 20, 50, 100, 200, 500});
+  print_inertia_table(kCoarseDivisions, {5, 10, 15, 20, 25, 30, 40, 50, 60, 75});
   return 0;
 }
