@@ -12,7 +12,7 @@ namespace {
 
 constexpr RayleighDamping kDamping{3.0, 2e-4};
 
-const ModeSet& block() {
+const ModeSet& soft_block() {
   static const ModeSet set = [] {
     ModeSet modes = free_free_modes(make_block({1.2, 0.4, 0.3}, {3, 1, 1}), {1e8, 0.3, 2000});
     modes.damping_ratio = kDamping.ratios(modes.omega);
@@ -30,7 +30,7 @@ TEST(RayleighDamping, OfAModeIsThatOfTheOscillatorWithProportionalDamper) {
 }
 
 TEST(RayleighDamping, OfTheNodesIsThatOfTheModes) {
-  const ShapeSet mean = mean_axis_shapes(nodal_model(block()));
+  const ShapeSet mean = mean_axis_shapes(nodal_model(soft_block()));
   const MatrixX expected = kDamping.mass * MatrixX::Identity(mean.shape_count(), mean.shape_count()) +
                            kDamping.stiffness * mean.stiffness;
   EXPECT_LE((mean.damping - expected).norm(), 1e-12 * expected.norm());
@@ -39,7 +39,7 @@ TEST(RayleighDamping, OfTheNodesIsThatOfTheModes) {
 TEST(RayleighDamping, IsOfTheMassAgainstDeflectionsWhateverAxesTheseAreMeasuredIn) {
   // free motion about fixed axes: what is left of the mass 1 of z when force and moment vanish,
   //   M_z = 1 - P^T P / m - S^T J^-1 S,   S, J about the mass centre
-  const ShapeSet set = fixed_axis_shapes(nodal_model(block()), {1, 13, 3});
+  const ShapeSet set = fixed_axis_shapes(nodal_model(soft_block()), {1, 13, 3});
   Matrix3X P = Matrix3X::Zero(3, set.shape_count()), S = P;
   for (int i = 0; i < set.node_count(); ++i) {
     P += set.node_mass[i] * set.shapes.middleRows<3>(3 * i);

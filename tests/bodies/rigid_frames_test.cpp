@@ -18,7 +18,7 @@
 namespace wishbone {
 namespace {
 
-constexpr IsotropicMaterial kMaterial{1e8, 0.3, 2000};
+constexpr IsotropicMaterial kRubber{1e8, 0.3, 2000};
 
 /// 5 sections of 6 nodes; those of the last are 25 to 30.
 HexahedralMesh mesh() {
@@ -28,7 +28,7 @@ const InterfaceFrame kEnd{"end", {25, 26, 27, 28, 29, 30}, {1, 2, 3, 1, 1, 0.5}}
 const InterfaceFrame kStart{"start", {1, 2, 3, 4}, {}};
 
 const ModeSet& all_modes() {
-  static const ModeSet set = free_free_modes(mesh(), kMaterial);
+  static const ModeSet set = free_free_modes(mesh(), kRubber);
   return set;
 }
 
@@ -57,7 +57,7 @@ MatrixX following(const std::vector<InterfaceFrame>& frames) {
 }
 
 MatrixX stiffness() {
-  return MatrixX(stiffness_matrix(mesh(), kMaterial));
+  return MatrixX(stiffness_matrix(mesh(), kRubber));
 }
 VectorX masses() {
   return all_modes().node_mass.transpose().replicate(3, 1).reshaped();
@@ -181,7 +181,7 @@ TEST(RigidFrames, BendTheBodyUnderMomentsAsTheReducedMatricesSay) {
   model.node_ids = all_modes().node_ids;
   model.node_mass = all_modes().node_mass;
   model.node_position = all_modes().node_position;
-  model.K = stiffness_matrix(mesh(), kMaterial);
+  model.K = stiffness_matrix(mesh(), kRubber);
   model.M = lumped_mass_matrix(model.node_mass);
   std::vector<int> nodes = kStart.node_ids;
   nodes.insert(nodes.end(), kEnd.node_ids.begin(), kEnd.node_ids.end());

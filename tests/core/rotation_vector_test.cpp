@@ -50,7 +50,9 @@ TEST(RotationVector, BiasIsTheAngularAccelerationAtAConstantRate) {
 TEST(RotationVector, JacobianIsTheInverseOfTheRateMatrix) {
   for (const double angle : kAngles) {
     const Vector3 phi = angle * kAxis;
-    const Matrix3 product = rotation_vector_rate_matrix<double>(phi) * RotationVector<double>(phi).J;
+    const RotationVector<double> turn(phi);
+    // which takes the angular velocity in the axes that turn
+    const Matrix3 product = rotation_vector_rate_matrix<double>(phi) * turn.R.transpose() * turn.J;
     EXPECT_LT((product - Matrix3::Identity()).norm(), 1e-12) << angle;
   }
 }
