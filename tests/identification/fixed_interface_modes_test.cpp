@@ -6,40 +6,31 @@
 #include "core/error.h"
 #include "core/null_space.h"
 #include "identification/flexible_modes.h"
+#include "identification/measured.h"
 #include "identification/structures.h"
 #include "text_files.h"
 
 namespace wishbone {
 namespace {
 
-AnalyticalModel model_of(const TestStructure& s) {
-  AnalyticalModel model;
-  model.node_ids = s.node_ids;
-  model.node_position = s.nodes;
-  model.node_mass = s.node_mass;
-  model.M = s.M;
-  model.K = s.K;
-  return model;
-}
-
 /// Three nodes far apart.
-std::vector<int> interfaces(const TestStructure& s) {
+std::vector<int> far_nodes(const TestStructure& s) {
   return {s.node_ids.front(), s.node_ids[s.node_ids.size() / 2], s.node_ids.back()};
 }
 
-std::vector<int> freedoms(const TestStructure& s) {
+std::vector<int> far_freedoms(const TestStructure& s) {
   const int middle = 3 * static_cast<int>(s.node_ids.size() / 2), last = static_cast<int>(s.n()) - 3;
   return {0, 1, 2, middle, middle + 1, middle + 2, last, last + 1, last + 2};
 }
 
 FlexibleModes craig_bampton(const TestStructure& s, const ModeChoice& fixed) {
-  return flexible_modes(model_of(s), fixed, {}, interfaces(s), NormalModes::of_held_interfaces);
+  return flexible_modes(model_of(s), fixed, {}, far_nodes(s), NormalModes::of_held_interfaces);
 }
 
 /// The matrices without the rows and columns of the interfaces.
 Modes dense_held_modes(const TestStructure& s) {
   std::vector<int> inner;
-  const std::vector<int> held = freedoms(s);
+  const std::vector<int> held = far_freedoms(s);
   for (int i = 0; i < s.n(); ++i)
     if (std::find(held.begin(), held.end(), i) == held.end()) inner.push_back(i);
   return solve_eigenproblem(MatrixX(s.K)(inner, inner), MatrixX(s.M)(inner, inner));
@@ -49,20 +40,20 @@ TEST(FixedInterfaceModes, AreThoseOfTheMatricesWithoutTheInterfaces) {
   for (const TestStructure& s : {chassis(), l_shape(), distorted_block({5, 4, 6}, 2)}) {
     const VectorX truth = dense_held_modes(s).lambda;
     const auto expect = [&](const ModeChoice& choice, const std::vector<int>& columns) {
-      const Modes modes = fixed_interface_modes(model_of(s), choice, freedoms(s));
+      const Modes modes = fixed_interface_modes(model_of(s), choice, far_freedoms(s));
       ASSERT_EQ(modes.count(), static_cast<Eigen::Index>(columns.size()));
       EXPECT_LE(worst_relative(modes.lambda, truth(columns)), 1e-9);
-      EXPECT_TRUE(modes.shapes(freedoms(s), Eigen::all).isZero(0));
+      EXPECT_TRUE(modes.shapes(far_freedoms(s), Eigen::all).isZero(0));
       // K phi - lambda M phi is a force at the interfaces only
       MatrixX force = s.K * modes.shapes - (s.M * modes.shapes) * modes.lambda.asDiagonal();
-      for (const int freedom : freedoms(s)) force.row(freedom).setZero();
+      for (const int freedom : far_freedoms(s)) force.row(freedom).setZero();
       EXPECT_LE(force.norm(), 1e-6 * (s.K * modes.shapes).norm());
     };
     expect(LowestModes{4}, {0, 1, 2, 3});
     expect(ListedModes{{2, 7}}, {1, 6});
     expect(ModesBelow{std::sqrt((truth[4] + truth[5]) / 2)}, {0, 1, 2, 3, 4});
   }
-  EXPECT_EQ(fixed_interface_modes(model_of(chassis()), AllModes{}, freedoms(chassis())).count(), 60 - 9);
+  EXPECT_EQ(fixed_interface_modes(model_of(chassis()), AllModes{}, far_freedoms(chassis())).count(), 60 - 9);
 }
 
 TEST(CraigBampton, FrequenciesConvergeFromAboveToThoseOfTheFullModel) {
@@ -98,7 +89,7 @@ TEST(CraigBampton, WithAllFixedInterfaceModesIsTheFullModel) {
 
 TEST(CraigBampton, StaticsUnderBalancedForcesAtTheInterfacesAreExact) {
   for (const TestStructure& s : {chassis(), l_shape(), distorted_block({5, 4, 6}, 2)}) {
-    const std::vector<int> rows = freedoms(s);
+    const std::vector<int> rows = far_freedoms(s);
     const MatrixX B = s.rigid(rows, Eigen::all);
     const MatrixX balanced = MatrixX::Identity(9, 9) - B * (B.transpose() * B).inverse() * B.transpose();
     const auto statics = [&](const MatrixX& shapes, const VectorX& lambda) {
@@ -120,7 +111,7 @@ TEST(CraigBampton, VibratesExactlyWhereTheInterfacesStandStill) {
   const ModeSet set = craig_bampton(s, LowestModes{kFixed}).set;
   MatrixX X(s.n(), set.mode_count() + 6);
   X << s.rigid, set.shapes;
-  const MatrixX held = X * null_space(X(freedoms(s), Eigen::all));
+  const MatrixX held = X * null_space(X(far_freedoms(s), Eigen::all));
   ASSERT_EQ(held.cols(), kFixed);
   const Modes found = solve_eigenproblem(held.transpose() * (s.K * held), held.transpose() * (s.M * held));
   EXPECT_LE(worst_relative(found.lambda, dense_held_modes(s).lambda.head(kFixed)), 1e-9);
@@ -150,7 +141,7 @@ TEST(CraigBampton, IsRefusedWithoutInterfacesThatHoldTheBody) {
             "constraint modes: error: the interface nodes must hold the body, for all its other nodes follow "
             "statically (got 5 of 6 rigid motions are held)\n"
             "  name at least three nodes that do not lie on one line, or take attachment modes");
-  EXPECT_EQ(refused(LowestModes{52}, interfaces(s)),
+  EXPECT_EQ(refused(LowestModes{52}, far_nodes(s)),
             "flexible body: error: the body has 51 modes while its interfaces are held (got 52 wanted)\n"
             "  choose fewer");
 }
