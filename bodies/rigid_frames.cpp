@@ -57,6 +57,11 @@ ShapeSet in_basis(const ShapeSet& set, const MatrixX& N) {
   reduced.shapes = set.shapes * N;
   reduced.stiffness = congruent(set.stiffness, N);
   reduced.damping = simplified(congruent(set.damping, N));
+  if (set.stiffening.size() == 0) return reduced;
+  const Index m = N.rows(), left = N.cols();
+  reduced.stiffening.resize(left, 6 * left);
+  for (Index pair = 0; pair < 6; ++pair)
+    reduced.stiffening.middleCols(pair * left, left) = congruent(set.stiffening.middleCols(pair * m, m), N);
   return reduced;
 }
 

@@ -13,6 +13,7 @@
 #include "identification/flexible_modes.h"
 #include "identification/free_free_modes.h"
 #include "identification/nodal_model.h"
+#include "identification/spin_stiffening.h"
 #include "text_files.h"
 
 namespace wishbone {
@@ -227,6 +228,20 @@ TEST(RigidFrames, KeepTheDampingOfTheMotionThatIsLeft) {
   const VectorX ratio = as_modes(set).damping_ratio;
   EXPECT_LE(ratio.maxCoeff(), 0.02 * (1 + 1e-9));
   EXPECT_GT(ratio.minCoeff(), 0.01);
+}
+
+TEST(RigidFrames, AreStiffenedBySpinAsTheShapesTheyAreMadeOf) {
+  ShapeSet set = shapes_of(all_modes());
+  set.stiffening = spin_stiffening(mesh(), kRubber, all_modes(), {});
+  const ShapeSet reduced = with_rigid_frames(set, {kEnd});
+  const Eigen::Index m = set.shape_count(), n = reduced.shape_count();
+  const MatrixX T = set.shapes.transpose() * masses().asDiagonal() * reduced.shapes;  // z = T z_reduced
+  ASSERT_EQ(reduced.stiffening.cols(), 6 * n);
+  for (Eigen::Index pair = 0; pair < 6; ++pair) {
+    const MatrixX expected = T.transpose() * set.stiffening.middleCols(pair * m, m) * T;
+    EXPECT_LT((reduced.stiffening.middleCols(pair * n, n) - expected).norm(), 1e-9 * set.stiffening.norm());
+  }
+  reduced.validate();
 }
 
 TEST(RigidFrames, WithoutFramesChangeNothing) {
