@@ -271,9 +271,11 @@ TEST_F(CommandTest, InfoTellsOfWhichNodesVectorsAre) {
   write_synthetic_run(folder_ / "run.h5", {});
   EXPECT_THAT(call("info " + (folder_ / "run.h5")).text, HasSubstr("deflection of nodes; nodes 1, 19, 20\n"));
   const auto json = nlohmann::json::parse(call("info --json " + (folder_ / "run.h5")).text);
-  for (const auto& dataset : json["datasets"])
-    if (dataset["path"] == "/flexible/chassis/deflection")
+  for (const auto& dataset : json["datasets"]) {
+    if (dataset["path"] == "/flexible/chassis/deflection") {
       EXPECT_THAT(dataset["nodes"], ElementsAre("1", "19", "20"));
+    }
+  }
 }
 
 }  // namespace
