@@ -89,10 +89,9 @@ InertiaMethod ModalBody::inertia_method() const {
 }
 
 double ModalBody::operations(InertiaMethod method) const {
-  const double sums = NodeSums::operations(set_, node_count_);
-  const double invariants = InertiaInvariants::operations(set_, node_count_);
-  if (method == InertiaMethod::cheaper) return std::min(sums, invariants);
-  return method == InertiaMethod::node_sums ? sums : invariants;
+  if (method == InertiaMethod::cheaper) method = inertia_method();
+  return method == InertiaMethod::node_sums ? NodeSums::operations(set_, node_count_)
+                                            : InertiaInvariants::operations(set_, node_count_);
 }
 
 template <class T>

@@ -31,19 +31,20 @@ struct InvariantProductsT {
 template <class T>
 struct ModalBodyStateT {
   // Position stage, written by set_position().
-  VectorXT<T> z;                        ///< m, modal coordinates [m sqrt(kg)]
-  Matrix3XT<T> interface_b;             ///< 3 x k, p_BoP of each interface [m]
-  Matrix3T<T> J = Matrix3T<T>::Zero();  ///< inertia about Bo of the deformed body, -sum m_i b_i~ b_i~ [kg m2]
-  Matrix3XT<T> S;                       ///< 3 x m, sum m_i b_i~ Psi_i [m sqrt(kg)]
+  VectorXT<T> z;             ///< m, modal coordinates [m sqrt(kg)]
+  Matrix3XT<T> interface_b;  ///< 3 x k, p_BoP of each interface [m]
+  Matrix3T<T> J =
+      Matrix3T<T>::Zero();  ///< inertia about Bo of the deformed body, -sum m_i b_i~ b_i~ - Gamma [kg m2]
+  Matrix3XT<T> S;           ///< 3 x m, sum m_i b_i~ Psi_i [m sqrt(kg)]
   Vector3T<T> c = Vector3T<T>::Zero();  ///< sum m_i b_i; zero with mean axes [kg m]
 
   // Velocity stage, written by set_velocity().
   VectorXT<T> zdot;                          ///< m [m sqrt(kg)/s]
   Vector3T<T> w_B = Vector3T<T>::Zero();     ///< angular velocity of the body axes [rad/s]
   Matrix3XT<T> interface_delta_dot;          ///< 3 x k, velocity in the body axes of each interface [m/s]
-  Vector3T<T> t_bias = Vector3T<T>::Zero();  ///< w x (J w) + 2 sum m_i b_i x (w x delta_i') [N m]
+  Vector3T<T> t_bias = Vector3T<T>::Zero();  ///< w x (J w) + 2 sum m_i b_i x (w x delta_i') - Gamma' w [N m]
   Vector3T<T> f_bias = Vector3T<T>::Zero();  ///< w x (w x c) + 2 w x c'; zero with mean axes [N]
-  VectorXT<T> h_bias;  ///< m, sum m_i Psi_i^T (w x (w x b_i) + 2 w x delta_i') + C z' + K z
+  VectorXT<T> h_bias;  ///< m, sum m_i Psi_i^T (w x (w x b_i) + 2 w x delta_i') + C z' + (K + K_g(w)) z
 
   /// Of the interfaces that are frames, written in both stages.
   std::vector<FrameTurnT<T>> turns;

@@ -1,6 +1,7 @@
 #include "bodies/node_sums.h"
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <utility>

@@ -1,7 +1,11 @@
 #include "identification/spin_stiffening.h"
 
+#include <fmt/format.h>
+
+#include <Eigen/QR>
 #include <array>
 
+#include "core/error.h"
 #include "identification/methods/held_stiffness.h"
 
 namespace wishbone {
@@ -33,6 +37,19 @@ Displacements spin_loads(const ModeSet& set, const Vector3& centre) {
   return F;
 }
 
+/// Whether no rigid motion of the body leaves the held freedoms where they are.
+void check_hold(const ModeSet& set, const std::vector<bool>& held) {
+  const MatrixX rigid = rigid_body_modes(set.node_mass, set.node_position);
+  std::vector<int> rows;
+  for (std::size_t i = 0; i < held.size(); ++i)
+    if (held[i]) rows.push_back(static_cast<int>(i));
+  const Eigen::ColPivHouseholderQR<MatrixX> qr(rigid(rows, Eigen::all));
+  if (qr.rank() == rigid.cols()) return;
+  throw InputError({"geometric stiffening", "the held nodes must hold the body",
+                    fmt::format("{} of 6 rigid motions left free", rigid.cols() - qr.rank()),
+                    "name at least three nodes that do not lie on one line, or spin it 'free'"});
+}
+
 /// x_ab
 Displacements spin_deflections(const SparseMatrix& K, const ModeSet& set, const SpinLoad& load) {
   if (load.held.empty()) {
@@ -40,7 +57,10 @@ Displacements spin_deflections(const SparseMatrix& K, const ModeSet& set, const 
     const MatrixX rigid = rigid_body_modes(set.node_mass, set.node_position);
     const MatrixX M_rigid = set.node_mass.transpose().replicate(3, 1).reshaped().asDiagonal() * rigid;
     F -= M_rigid * (rigid.transpose() * F);
-    return HeldStiffness(K, determinate_support(rigid)).solve(F);
+    const HeldStiffness support(K, determinate_support(rigid));
+    Displacements x = support.solve(F);
+    x += support.solve(F - K * x);  // one refinement: the support may be far softer than the elements
+    return x;
   }
   std::vector<bool> held(static_cast<std::size_t>(K.rows()), false);
   Vector3 centre = Vector3::Zero();
@@ -49,6 +69,7 @@ Displacements spin_deflections(const SparseMatrix& K, const ModeSet& set, const 
     for (int axis = 0; axis < 3; ++axis) held[static_cast<std::size_t>(3 * node + axis)] = true;
     centre += set.node_position.col(node) / static_cast<double>(load.held.size());
   }
+  check_hold(set, held);
   return HeldStiffness(K, held).solve(spin_loads(set, load.centre.value_or(centre)));
 }
 

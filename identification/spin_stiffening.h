@@ -24,7 +24,7 @@ struct SpinLoad {
 /// not there. Source: docs/theory.md; T. R. Kane, R. R. Ryan, A. K. Banerjee, J. Guidance 10 (1987) 139-151; O. Wallrapp,
 /// R. Schwertassek, Int. J. Numer. Meth. Eng. 32 (1991) 1833-1850.
 /// @param set modes of the mesh, with its nodes in their order
-/// @throws InputError if a node is unknown, or if the body can move although it is held
+/// @throws InputError if a node is unknown, or if the nodes do not hold the body
 MatrixX spin_stiffening(const HexahedralMesh& mesh, const IsotropicMaterial& material, const ModeSet& set,
                         const SpinLoad& load);
 

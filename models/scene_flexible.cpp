@@ -278,9 +278,7 @@ std::optional<Scene::FixedAxes> read_axes(const Value& value, const std::vector<
                  "name the node of all three directions, one along a line, one off it");
   Scene::FixedAxes nodes{};
   for (std::size_t k = 0; k < 3; ++k) {
-    nodes[k] = items[k].integer(1, std::numeric_limits<int>::max());
-    if (std::find(node_ids.begin(), node_ids.end(), nodes[k]) == node_ids.end())
-      items[k].refuse("the body has no such node", "name one of its nodes");
+    nodes[k] = read_node(items[k], node_ids);
   }
   return nodes;
 }
@@ -290,6 +288,7 @@ Scene::Stiffening read_stiffening(const Value& value, const Scene::Flexible& fle
   if (!flexible.block && !(flexible.model && flexible.model->elements))
     value.refuse("geometric stiffening needs the stresses in the elements of the body",
                  "take its modes from a block or from listed hexahedra, or remove the key");
+  if (flexible.is_rigid) value.refuse("a body without modes is rigid", "remove the key, or choose modes");
   if (flexible.identification)
     value.refuse("geometric stiffening needs the stresses of modes of a model, and these are identified",
                  "take the modes of the block or model, or remove the key");
@@ -297,7 +296,14 @@ Scene::Stiffening read_stiffening(const Value& value, const Scene::Flexible& fle
   if (value.is_word("free")) return stiffening;
   const Mapping keys(value, {"held", "centre"});
   const Value held = keys.required("held");
-  for (const Value& item : held.list()) stiffening.held.push_back(read_node(item, flexible.node_ids));
+  for (const Value& item : held.list()) {
+    const int node = read_node(item, flexible.node_ids);
+    if (std::find(stiffening.held.begin(), stiffening.held.end(), node) != stiffening.held.end())
+      item.refuse("a node is listed twice", "list each node once");
+    stiffening.held.push_back(node);
+  }
+  if (stiffening.held.size() == flexible.node_ids.size())
+    held.refuse("a body that is held at every node cannot deform", "name the nodes of its support alone");
   if (stiffening.held.empty()) held.refuse("there are no nodes in the list", "name some, or write 'free'");
   if (const auto centre = keys.optional("centre")) stiffening.centre_D = centre->vector3(kLength);
   return stiffening;
@@ -332,6 +338,11 @@ Scene::Flexible read_flexible(const Value& value, Scene& scene) {
   if (const auto inertia = keys.optional("inertia"))
     flexible.source_terms =
         inertia->choice<bool>({{"consistent", false}, {"source", true}}, "the inertial couplings of a body");
+  if (flexible.source_terms && flexible.fixed_axes)
+    keys.required("inertia").refuse(
+        "the terms of the source are those of mean axes: with fixed axes the coupling that "
+        "they leave out is no small one",
+        "write 'inertia: consistent', or 'axes: mean'");
   return flexible;
 }
 

@@ -40,6 +40,7 @@ PartitionedSystem::PartitionedSystem(const System& system, Workspace& ws)
       row_force_(VectorX::Zero(system.nv)),
       mu_(VectorX::Zero(system.n_rows)),
       residual_(VectorX::Zero(n_dependent_)),
+      change_(VectorX::Zero(n_dependent_)),
       d_rate_(VectorX::Zero(system.nv)),
       speeds_(VectorX::Zero(system.nv)),
       directions_(system, 2 * n_independent_ + system.nx),
@@ -163,8 +164,8 @@ bool PartitionedSystem::find_dependent(State& state) {
     }
     factored = true;
     last = residual;
-    residual_ = lu_.solve(residual_);
-    for (int j = 0; j < n_dependent_; ++j) d_[dependent_[j]] -= residual_[j];
+    change_.noalias() = lu_.solve(residual_);
+    for (int j = 0; j < n_dependent_; ++j) d_[dependent_[j]] -= change_[j];
   }
   return false;
 }
@@ -202,8 +203,8 @@ void PartitionedSystem::close_velocities(State& state) {
   calc_closure_jacobian();
   factor_dependent(Of::speeds);
   for (int i = 0; i < n_dependent_; ++i) residual_[i] = ws_.Phi_rate[ws_.closure.kept[i]];
-  residual_ = lu_.solve(residual_);
-  for (int j = 0; j < n_dependent_; ++j) state.v[dependent_[j]] = -residual_[j];
+  change_.noalias() = lu_.solve(residual_);
+  for (int j = 0; j < n_dependent_; ++j) state.v[dependent_[j]] = -change_[j];
 }
 
 void PartitionedSystem::unpack(double t, const Eigen::Ref<const VectorX>& y, State& state, Work& work) {
@@ -234,8 +235,8 @@ void PartitionedSystem::calc_rate(double t, const Eigen::Ref<const VectorX>& y, 
 void PartitionedSystem::set_directions(const State& state) {
   // the dependent entries that undo the residual of the kept rows
   const auto depend = [this](VectorX& along) {
-    residual_ = lu_.solve(residual_);
-    for (int j = 0; j < n_dependent_; ++j) along[dependent_[j]] = -residual_[j];
+    change_.noalias() = lu_.solve(residual_);
+    for (int j = 0; j < n_dependent_; ++j) along[dependent_[j]] = -change_[j];
   };
   calc_closure_jacobian();
   factor_dependent(Of::displacements);

@@ -53,7 +53,7 @@ class PartitionedSystem final : public FirstOrderSystem {
   MatrixX D_;        // kept rows x nv, of speeds
   MatrixX D_J_;      // its dependent columns, or those of D times the tangent of the displacements
   Eigen::PartialPivLU<MatrixX> lu_;
-  VectorX row_force_, mu_, residual_, d_rate_, speeds_;
+  VectorX row_force_, mu_, residual_, change_, d_rate_, speeds_;
   std::vector<const TreeBody*> turning_;  // bodies on joints with quaternions
   Directions directions_;
   MotionDerivatives derivatives_;

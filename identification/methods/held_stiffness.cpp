@@ -25,6 +25,7 @@ HeldStiffness::HeldStiffness(const SparseMatrix& K, const std::vector<bool>& hel
   for (Eigen::Index j = 0; j < K.outerSize(); ++j)
     for (SparseMatrix::InnerIterator it(K, j); it; ++it)
       if (is_free(it.row()) && is_free(j)) entries.emplace_back(place(it.row()), place(j), it.value());
+  if (free_ == 0) return;
   SparseMatrix K_free(free_, free_);
   K_free.setFromTriplets(entries.begin(), entries.end());
   factor_.compute(K_free);
@@ -32,6 +33,7 @@ HeldStiffness::HeldStiffness(const SparseMatrix& K, const std::vector<bool>& hel
 }
 
 MatrixX HeldStiffness::solve(const MatrixX& F) const {
+  if (free_ == 0) return MatrixX::Zero(F.rows(), F.cols());
   MatrixX F_free(free_, F.cols());
   for (Eigen::Index i = 0; i < F.rows(); ++i)
     if (is_free(i)) F_free.row(place(i)) = F.row(i);

@@ -1,5 +1,4 @@
-// Geometric stiffening of spinning bodies: a clamped beam in steady rotation and in spin-up against published digits, and the
-// conservation laws of a stiffened body in free flight.
+// Geometric stiffening of spinning bodies: a clamped beam in steady rotation and in spin-up against published digits.
 
 #include <gtest/gtest.h>
 
@@ -154,7 +153,7 @@ constexpr Published kPublished[] = {{0, 0, 3.516015268500151},  {0, 2, 4.1373195
 
 TEST(SpinningBeam, HasThePublishedFrequencies) {
   Beam beam;
-  beam.rotary_inertia = 1e-12;  // the published ones neglect it
+  beam.rotary_inertia = 1e-6;  // next to none: the published ones neglect it
   for (const Published& p : kPublished) {
     SCOPED_TRACE(testing::Message() << "delta " << p.delta << " gamma " << p.gamma);
     beam.hub = p.delta * beam.length;

@@ -387,31 +387,31 @@ constexpr Broken kBrokenScenes[] = {
            "  name the body without a node or frame"},
     Broken{
         "FrameWithAnUnknownNode", "damping: 1 %", "damping: 1 %\n      frames: {tip: {nodes: [9, 10, 13]}}",
-        "scene.yaml:21:38: bodies.beam.flexible.frames.tip.nodes[3]: error: the body has no such node (got "
+        "scene.yaml:21:37: bodies.beam.flexible.frames.tip.nodes[3]: error: the body has no such node (got "
         "'13')\n"
         "  its nodes are 1 to 12"},
     Broken{"FrameOverTwoNodes", "damping: 1 %", "damping: 1 %\n      frames: {tip: {nodes: [9, 10]}}",
-           "scene.yaml:21:30: bodies.beam.flexible.frames.tip.nodes: frame 'tip': error: a frame needs at "
-           "least three nodes (got '2')\n"
+           "scene.yaml:21:22: bodies.beam.flexible.frames.tip.nodes: frame 'tip': error: a frame needs at "
+           "least three nodes (got 2)\n"
            "  name more nodes, or hold the body at a node"},
     Broken{
         "FrameOverALine", "damping: 1 %", "damping: 1 %\n      frames: {tip: {nodes: [9, 1, 5]}}",
-        "scene.yaml:21:30: bodies.beam.flexible.frames.tip.nodes: frame 'tip': error: the nodes of a frame "
-        "must not lie on one line (got 'nodes 9, 1, 5')\n"
+        "scene.yaml:21:22: bodies.beam.flexible.frames.tip.nodes: frame 'tip': error: the nodes of a frame "
+        "must not lie on one line (got nodes 9, 1, 5)\n"
         "  add a node beside the line, or the frame could not follow turns about it"},
     Broken{
         "FrameWithANodeTwice", "damping: 1 %", "damping: 1 %\n      frames: {tip: {nodes: [9, 10, 9]}}",
-        "scene.yaml:21:38: bodies.beam.flexible.frames.tip.nodes[3]: error: the frame has this node already "
+        "scene.yaml:21:37: bodies.beam.flexible.frames.tip.nodes[3]: error: the frame has this node already "
         "(got '9')\n"
         "  name each node once; weights let some count more"},
     Broken{
         "FrameWithTooFewWeights", "damping: 1 %",
         "damping: 1 %\n      frames: {tip: {nodes: [9, 10, 11], weights: [1, 2]}}",
-        "scene.yaml:21:52: bodies.beam.flexible.frames.tip.weights: error: there are 2 weights for 3 nodes\n"
+        "scene.yaml:21:42: bodies.beam.flexible.frames.tip.weights: error: there are 2 weights for 3 nodes\n"
         "  give one weight per node, or leave them out for equal ones"},
     Broken{"FrameWithAWeightOfZero", "damping: 1 %",
            "damping: 1 %\n      frames: {tip: {nodes: [9, 10, 11], weights: [1, 0, 1]}}",
-           "scene.yaml:21:56: bodies.beam.flexible.frames.tip.weights[2]: error: the ratio must be positive "
+           "scene.yaml:21:55: bodies.beam.flexible.frames.tip.weights[2]: error: the ratio must be positive "
            "(got '0')\n"
            "  give a value above zero"},
     Broken{
@@ -421,8 +421,8 @@ constexpr Broken kBrokenScenes[] = {
         "'perhaps')\n"
         "  write true or false"},
     Broken{"FrameWithoutNodes", "damping: 1 %", "damping: 1 %\n      frames: {tip: {}}",
-           "scene.yaml:21:21: bodies.beam.flexible.frames.tip: error: the key 'nodes' is missing\n"
-           "  add it"},
+           "scene.yaml:21:16: bodies.beam.flexible.frames.tip: error: the key 'nodes' is missing\n"
+           "  add 'nodes: ...' here"},
     Broken{"UnknownFrame", "      damping: 1 %\njoints:\n",
            "      damping: 1 %\n      frames: {tip: {nodes: [9, 10, 11]}}\njoints:\n"
            "  grip: {type: revolute, bodies: [ground, {body: beam, frame: top}], axis: [0, 0, 1]}\n",

@@ -32,7 +32,7 @@ struct Differences {
   double step, exact;
 };
 Differences differences_of(const Built& m) {
-  return std::get<std::vector<Tire>>(m.system.forces).empty() ? Differences{0.05, 1e-12}
+  return std::get<std::vector<Tire>>(m.system.forces).empty() ? Differences{0.02, 1e-12}
                                                               : Differences{2e-3, 1e-11};
 }
 

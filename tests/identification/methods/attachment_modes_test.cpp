@@ -87,8 +87,8 @@ TEST(AttachmentModes, AreRefusedForStructuresThatAreHeldOrLoose) {
   for (const auto& [row, column, value] : {std::tuple(3, 3, 1e4), {4, 4, 1e4}, {3, 4, 0.0}, {4, 3, 0.0}})
     loose.K.coeffRef(row, column) = value;
   EXPECT_EQ(
-      message_of<InputError>([&] { attachment_modes(loose.K, loose.M, loose.rigid, {0}); }).substr(0, 81),
-      "attachment modes: error: the stiffness must resist every motion that is not rigid");
+      message_of<InputError>([&] { attachment_modes(loose.K, loose.M, loose.rigid, {0}); }).substr(0, 82),
+      "static deflection: error: the stiffness must resist every motion that is not rigid");
 
   EXPECT_EQ(message_of<InputError>([&] { attachment_modes(s.K, s.M, s.rigid, {60}); }),
             "attachment modes: error: the structure has 60 freedoms (got freedom 61)\n"
