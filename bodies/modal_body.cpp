@@ -89,7 +89,6 @@ InertiaMethod ModalBody::inertia_method() const {
 }
 
 double ModalBody::operations(InertiaMethod method) const {
-  if (method == InertiaMethod::cheaper) method = inertia_method();
   return method == InertiaMethod::node_sums ? NodeSums::operations(set_, node_count_)
                                             : InertiaInvariants::operations(set_, node_count_);
 }

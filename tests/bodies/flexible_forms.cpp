@@ -62,6 +62,16 @@ ModalBodyState state_of(const ModalBody& body, const Motion& motion) {
   return state;
 }
 
+Matrix3 shortening(const MatrixX& stiffening, const VectorX& z) {
+  const Eigen::Index m = z.size();
+  const auto moment = [&](int pair) { return z.dot(stiffening.middleCols(pair * m, m) * z); };
+  Matrix3 Gamma = Vector3(moment(0), moment(1), moment(2)).asDiagonal();
+  Gamma(0, 1) = Gamma(1, 0) = moment(3) / 2;
+  Gamma(0, 2) = Gamma(2, 0) = moment(4) / 2;
+  Gamma(1, 2) = Gamma(2, 1) = moment(5) / 2;
+  return Gamma;
+}
+
 Accelerations::Accelerations(const ModalBody& body, const ModalBodyState& state, const Vector3& force,
                              const Vector3& moment, const VectorX& modal_load) {
   const int m = body.mode_count();

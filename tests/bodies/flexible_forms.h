@@ -50,6 +50,9 @@ struct NodeMotion {
         delta_dot((set.shapes * motion.zdot).reshaped(3, set.node_count())) {}
 };
 
+/// Gamma with w.(Gamma w) = sum_{a <= b} w_a w_b z^T K_ab z, from what ShapeSet::stiffening holds.
+Matrix3 shortening(const MatrixX& stiffening, const VectorX& z);
+
 /// The three equations of motion solved for v_Bo' + w x v_Bo (body axes), w' and z''.
 struct Accelerations {
   Vector3 a, alpha;

@@ -34,16 +34,6 @@ VectorX extrapolated_step(const std::function<VectorX(const VectorX&)>& rate, co
   return row.back();
 }
 
-Matrix3 shortening(const MatrixX& stiffening, const VectorX& z) {
-  const Eigen::Index m = z.size();
-  const auto moment = [&](int pair) { return z.dot(stiffening.middleCols(pair * m, m) * z); };
-  Matrix3 Gamma = Vector3(moment(0), moment(1), moment(2)).asDiagonal();
-  Gamma(0, 1) = Gamma(1, 0) = moment(3) / 2;
-  Gamma(0, 2) = Gamma(2, 0) = moment(4) / 2;
-  Gamma(1, 2) = Gamma(2, 1) = moment(5) / 2;
-  return Gamma;
-}
-
 /// Free flight with y = (p_WBo, v_WBo, quaternion wxyz, w_B, z, z', energy lost to damping).
 class FreeFlight {
  public:
