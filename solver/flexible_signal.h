@@ -9,7 +9,7 @@ enum class FlexibleSignal {
   modal_accelerations,  ///< z''
   energies,             ///< of the body
   modal_energies,       ///< of each mode
-  interface_forces      ///< what acts on its interface nodes, forces and moments
+  interface_forces      ///< what acts on its interfaces, nodes and frames: forces and moments
 };
 
 }  // namespace wishbone

@@ -13,11 +13,11 @@ class WrenchSum {
     F_.setZero();
   }
 
-  /// Moment about the point p_W and force at it, on an interface node or (-1) on the body as a whole.
-  void add(int node, const Vector3& p_W, const Vector3& t, const Vector3& f) {
+  /// Moment about the point p_W and force at it, on an interface or (-1) on the body as a whole.
+  void add(int interface, const Vector3& p_W, const Vector3& t, const Vector3& f) {
     const Pose& X_WB = ws_.bodies[body_].X_WB;
-    const Vector3 t_about = t + (p_W - place(node)).cross(f);
-    auto column = F_.col(node >= 0 ? node : F_.cols() - 1);
+    const Vector3 t_about = t + (p_W - place(interface)).cross(f);
+    auto column = F_.col(interface >= 0 ? interface : F_.cols() - 1);
     column.head<3>() += X_WB.R.transpose() * t_about;
     column.tail<3>() += X_WB.R.transpose() * f;
   }
@@ -28,11 +28,11 @@ class WrenchSum {
   }
 
  private:
-  /// Of an interface node or of Bo, world axes.
-  Vector3 place(int node) const {
+  /// Of an interface or of Bo, world axes.
+  Vector3 place(int interface) const {
     const Pose& X_WB = ws_.bodies[body_].X_WB;
-    if (node < 0) return X_WB.p;
-    return X_WB * Vector3(ws_.flexible[system_.bodies[body_].flexible].modal.interface_b.col(node));
+    if (interface < 0) return X_WB.p;
+    return X_WB * Vector3(ws_.flexible[system_.bodies[body_].flexible].modal.interface_b.col(interface));
   }
 
   const System& system_;

@@ -5,8 +5,8 @@
 namespace wishbone {
 
 /// What joints, springs, loads and all other force elements together exert on System::flexible[k], body axes [N m, N]: column i
-/// on interface node i, the moment t_i about the node above the force f_i; the last column (t_0, f_0) about Bo, of whatever
-/// takes hold of the body without a node. Gravity, which acts on every mass point, is not among them. They are what a static
+/// on interface i, a node or a frame, the moment t_i about it above the force f_i; the last column (t_0, f_0) about Bo, of whatever
+/// takes hold of the body as a whole. Gravity, which acts on every mass point, is not among them. They are what a static
 /// analysis of the body with inertia relief is loaded with, for with b_i from Bo to the nodes
 ///     sum f_i + f_0                      = m a + alpha x c + P z'' + f_bias
 ///     sum (b_i x f_i + t_i) + t_0        = c x a + J alpha + S z'' + t_bias
