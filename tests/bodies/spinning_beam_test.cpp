@@ -162,7 +162,7 @@ TEST(SpinningBeam, HasThePublishedFrequencies) {
     EXPECT_NEAR(flap, p.flap, 1e-6 * p.flap);
     const double lag = frequencies(beam, 10, p.gamma, Vector3::UnitZ())[0];
     EXPECT_NEAR(lag * lag, p.flap * p.flap - p.gamma * p.gamma, 1e-6 * p.flap * p.flap);
-    if (p.gamma <= 6) {
+    if (p.delta == 0 && p.gamma <= 6) {
       EXPECT_NEAR(frequencies(beam, 3, p.gamma, Vector3::UnitY())[0], p.flap, 1e-3 * p.flap);
     }
   }

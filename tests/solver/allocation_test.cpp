@@ -93,7 +93,7 @@ TEST(Allocation, NoneInEvaluatingAFlexibleCarOnTires) {
 }
 
 TEST(Allocation, NoneInEvaluatingLoopsOfFlexibleBodies) {
-  expect_no_allocation(random_loops(1));
+  expect_no_allocation(random_loops(2));
 }
 
 TEST(Allocation, NoneInEvaluatingEveryJointAndEveryForce) {
