@@ -27,13 +27,14 @@ using testing::richardson;
 using testing::with_independent_rows;
 
 /// How wide difference quotients may be to stay where everything is smooth, and how well they can then be trusted. A tire
-/// gives way by centimetres only, and its stiffness magnifies what rounding leaves of the place of the wheel.
+/// gives way by centimetres only, and its stiffness magnifies what rounding leaves of the place of the wheel; a flexible body
+/// is bent by less, too.
 struct Differences {
   double step, exact;
 };
 Differences differences_of(const Built& m) {
-  return std::get<std::vector<Tire>>(m.system.forces).empty() ? Differences{0.02, 1e-12}
-                                                              : Differences{2e-3, 1e-11};
+  if (!std::get<std::vector<Tire>>(m.system.forces).empty()) return {2e-3, 1e-11};
+  return {m.system.flexible.empty() ? 0.02 : 5e-3, 1e-12};
 }
 
 /// The rounding of f, which loops that are nearly singular magnify: how much it changes with the last bits of its argument.
@@ -208,8 +209,26 @@ TEST(Tangents, AreTheDerivativesOfForwardDynamicsForEveryJointAndForce) {
   for (const NamedMechanism& around : around_every_part()) expect_exact_tangents(around);
 }
 
+/// Loops that are nearly singular leave few digits of the accelerations, whose difference quotients cannot be trusted.
+bool nearly_singular(const Built& m) {
+  Workspace ws = with_independent_rows(m);
+  const auto moved = [&](double h) {
+    State state = m.state;
+    state.q.array() += h;
+    return motion(m, state, ws);
+  };
+  return rounding(moved) > 1e-12 * moved(0).cwiseAbs().maxCoeff();
+}
+
 TEST(Tangents, AreTheDerivativesOfForwardDynamicsWithFlexibleBodies) {
-  for (unsigned seed = 1; seed <= 3; ++seed) expect_exact_tangents({"flexible", random_loops(seed)});
+  int tried = 0;
+  for (unsigned seed = 1; tried < 3; ++seed) {
+    ASSERT_LE(seed, 20u) << "most mechanisms are far from singular";
+    const Built m = random_loops(seed);
+    if (nearly_singular(m)) continue;
+    expect_exact_tangents({"seed " + std::to_string(seed), m});
+    ++tried;
+  }
 }
 
 // ---- that nothing was forgotten
