@@ -226,14 +226,11 @@ TEST(Car, StructuralDampingCalmsTheChassis) {
 }
 
 /// Manoeuvre, bank and damping.
-class FlexibleForms : public ::testing::TestWithParam<std::tuple<const char*, const char*, const char*>> {
+class FlexibleForms : public ::testing::TestWithParam<std::tuple<std::string, std::string, std::string>> {
  protected:
   Result run_as(const std::string& chassis, double tolerance, double duration = 0.4) const {
     const auto [scene, bank, damping] = GetParam();
-    return run({scene,
-                {"chassis=" + chassis, std::string("bank=") + bank, std::string("damping=") + damping},
-                duration,
-                tolerance});
+    return run({scene, {"chassis=" + chassis, "bank=" + bank, "damping=" + damping}, duration, tolerance});
   }
 };
 
@@ -253,7 +250,11 @@ TEST_P(FlexibleForms, NodalAndModalWithAllModesAreTheSameSystem) {
 INSTANTIATE_TEST_SUITE_P(Car, FlexibleForms,
                          ::testing::Combine(::testing::Values("impulse_steer", "sine_depression"),
                                             ::testing::Values("0 deg", "6 deg"),
-                                            ::testing::Values("0 %", "5 %")));
+                                            ::testing::Values("0 %", "5 %")),
+                         [](const auto& tested) {
+                           return std::get<0>(tested.param) + "_bank_" + std::get<1>(tested.param).front() +
+                                  "_damping_" + std::get<2>(tested.param).front();
+                         });
 
 }  // namespace
 }  // namespace wishbone
