@@ -15,8 +15,8 @@ struct Source {
   /// "file:line:column: path", without the parts that are not known.
   std::string text() const {
     std::string s = file ? *file : std::string();
-    if (line > 0) s += ":" + std::to_string(line) + ":" + std::to_string(column);
-    if (!path.empty()) s += (s.empty() ? "" : ": ") + path;
+    if (line > 0) s.append(":").append(std::to_string(line)).append(":").append(std::to_string(column));
+    if (!path.empty()) s.append(s.empty() ? "" : ": ").append(path);
     return s;
   }
 };
