@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <random>
 #include <utility>
 
@@ -70,6 +71,17 @@ Matrix3 shortening(const MatrixX& stiffening, const VectorX& z) {
   Gamma(0, 2) = Gamma(2, 0) = moment(4) / 2;
   Gamma(1, 2) = Gamma(2, 1) = moment(5) / 2;
   return Gamma;
+}
+
+MatrixX mass_of_free_motion(const ShapeSet& set) {
+  Matrix3X P = Matrix3X::Zero(3, set.shape_count()), S = P;
+  for (int i = 0; i < set.node_count(); ++i) {
+    P += set.node_mass[i] * set.shapes.middleRows<3>(3 * i);
+    S += set.node_mass[i] * skew(set.node_position.col(i)) * set.shapes.middleRows<3>(3 * i);
+  }
+  const Matrix3 J = point_mass_inertia(set.node_mass, set.node_position);
+  return MatrixX::Identity(set.shape_count(), set.shape_count()) - P.transpose() * P / set.node_mass.sum() -
+         S.transpose() * J.inverse() * S;
 }
 
 Accelerations::Accelerations(const ModalBody& body, const ModalBodyState& state, const Vector3& force,

@@ -53,6 +53,10 @@ struct NodeMotion {
 /// Gamma with w.(Gamma w) = sum_{a <= b} w_a w_b z^T K_ab z, from what ShapeSet::stiffening holds.
 Matrix3 shortening(const MatrixX& stiffening, const VectorX& z);
 
+/// M_z = 1 - P^T P / m - S^T J^-1 S of the undeformed body, S and J about the mass centre: the mass that is left to the shapes when
+/// force and moment on the body vanish, whatever its axes.
+MatrixX mass_of_free_motion(const ShapeSet& set);
+
 /// The three equations of motion solved for v_Bo' + w x v_Bo (body axes), w' and z''.
 struct Accelerations {
   Vector3 a, alpha;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "bodies/nodal_shapes.h"
+#include "flexible_forms.h"
 #include "identification/free_free_modes.h"
 #include "identification/nodal_model.h"
 
@@ -40,14 +41,7 @@ TEST(RayleighDamping, IsOfTheMassAgainstDeflectionsWhateverAxesTheseAreMeasuredI
   // free motion about fixed axes: what is left of the mass 1 of z when force and moment vanish,
   //   M_z = 1 - P^T P / m - S^T J^-1 S,   S, J about the mass centre
   const ShapeSet set = fixed_axis_shapes(nodal_model(soft_block()), {1, 13, 3});
-  Matrix3X P = Matrix3X::Zero(3, set.shape_count()), S = P;
-  for (int i = 0; i < set.node_count(); ++i) {
-    P += set.node_mass[i] * set.shapes.middleRows<3>(3 * i);
-    S += set.node_mass[i] * skew(set.node_position.col(i)) * set.shapes.middleRows<3>(3 * i);
-  }
-  const Matrix3 J = point_mass_inertia(set.node_mass, set.node_position);
-  const MatrixX M_z = MatrixX::Identity(set.shape_count(), set.shape_count()) -
-                      P.transpose() * P / set.node_mass.sum() - S.transpose() * J.inverse() * S;
+  const MatrixX M_z = flexible_forms::mass_of_free_motion(set);
   const MatrixX expected = kDamping.mass * M_z + kDamping.stiffness * set.stiffness;
   EXPECT_LE((set.damping - expected).norm(), 1e-12 * expected.norm());
   const MatrixX only_mass = kDamping.mass * M_z;  // which the stiff share would hide

@@ -10,6 +10,7 @@
 #include "bodies/nodal_shapes.h"
 #include "bodies/rayleigh_damping.h"
 #include "core/error.h"
+#include "flexible_forms.h"
 #include "identification/flexible_modes.h"
 #include "identification/free_free_modes.h"
 #include "identification/nodal_model.h"
@@ -94,16 +95,8 @@ TEST(RigidFrames, GiveTheFrequenciesOfMatricesThatAreReducedToTheirMotion) {
       EXPECT_NO_THROW(set.validate());
       EXPECT_EQ(set.mean_axes, nodal.mean_axes);
       // free motion, whatever the axes: the mass that is left when force and moment vanish
-      Matrix3X P = Matrix3X::Zero(3, set.shape_count()), S = P;
-      for (int i = 0; i < set.node_count(); ++i) {
-        P += set.node_mass[i] * set.shapes.middleRows<3>(3 * i);
-        S += set.node_mass[i] * skew(set.node_position.col(i)) * set.shapes.middleRows<3>(3 * i);
-      }
-      const Matrix3 J = point_mass_inertia(set.node_mass, set.node_position);
-      const MatrixX M_z = MatrixX::Identity(set.shape_count(), set.shape_count()) -
-                          P.transpose() * P / set.node_mass.sum() - S.transpose() * J.inverse() * S;
-      const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixX> eigen(set.stiffness, M_z,
-                                                                    Eigen::EigenvaluesOnly);
+      const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixX> eigen(
+          set.stiffness, flexible_forms::mass_of_free_motion(set), Eigen::EigenvaluesOnly);
       EXPECT_LE(worst_share(eigen.eigenvalues(), expected).maxCoeff(), 2e-9);
     }
   }
