@@ -1,15 +1,12 @@
 #include "bodies/inertia_invariants.h"
 
 #include <array>
-#include <utility>
 
+#include "core/axis_pairs.h"
 #include "core/dual.h"
 
 namespace wishbone {
 namespace {
-
-// ab = xx, yy, zz, xy, xz, yz
-constexpr std::array<std::pair<int, int>, 6> kPairs{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
 
 /// sqrt(m_i) [s_a Psi_a], n x (m + 1).
 MatrixX mass_weighted(const ShapeSet& set, int axis) {
@@ -33,7 +30,7 @@ InertiaInvariants::InertiaInvariants(const ShapeSet& set, const std::vector<int>
 
   const std::array<MatrixX, 3> P{mass_weighted(set, 0), mass_weighted(set, 1), mass_weighted(set, 2)};
   for (int pair = 0; pair < 6; ++pair) {
-    const auto [a, b] = kPairs[pair];
+    const auto [a, b] = kAxisPairs[pair];
     const MatrixX N = P[a].transpose() * P[b];
     symmetric_.middleRows(pair * (m_ + 1), m_ + 1) = a == b ? N : MatrixX(N + N.transpose());
     if (a == b) continue;
@@ -73,7 +70,7 @@ void InertiaInvariants::set_position(bool coupled, ModalBodyStateT<T>& state) co
   // B_ab = 1/2 y^T (N_ab + N_ba) y,  J = tr(B) 1 - B
   Matrix3T<T> B;
   for (int pair = 0; pair < 6; ++pair) {
-    const auto [a, b] = kPairs[pair];
+    const auto [a, b] = kAxisPairs[pair];
     const T moment = products.y.dot(products.symmetric.segment(pair * (m_ + 1), m_ + 1));
     B(a, b) = a == b ? moment : 0.5 * moment;
     B(b, a) = B(a, b);
@@ -100,7 +97,7 @@ void InertiaInvariants::set_velocity(ModalBodyStateT<T>& state) const {
   Matrix3T<T> Q;
   state.h_bias.setZero();
   for (int pair = 0; pair < 6; ++pair) {
-    const auto [a, b] = kPairs[pair];
+    const auto [a, b] = kAxisPairs[pair];
     const auto Gy = products.symmetric.segment(pair * (m_ + 1) + 1, m_);
     state.h_bias += ww(a, b) * Gy;
     const T sum = state.zdot.dot(Gy);

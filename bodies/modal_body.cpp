@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/axis_pairs.h"
 #include "core/dual.h"
 #include "core/error.h"
 
@@ -39,21 +40,6 @@ void add_product(const MatrixX& matrix, const VectorXT<T>& z, VectorXT<T>& sum) 
     sum += matrix.col(0).cwiseProduct(z);
   else
     sum.noalias() += matrix * z;
-}
-
-// ab = xx, yy, zz, xy, xz, yz
-template <class T>
-Eigen::Matrix<T, 6, 1> products_of_components(const Vector3T<T>& w) {
-  return {w.x() * w.x(), w.y() * w.y(), w.z() * w.z(), w.x() * w.y(), w.x() * w.z(), w.y() * w.z()};
-}
-
-/// The symmetric matrix A with w^T A w = sum_{a <= b} w_a w_b moments_ab.
-template <class T>
-Matrix3T<T> symmetric(const Eigen::Matrix<T, 6, 1>& moments) {
-  Matrix3T<T> A;
-  const T xy = 0.5 * moments[3], xz = 0.5 * moments[4], yz = 0.5 * moments[5];
-  A << moments[0], xy, xz, xy, moments[1], yz, xz, yz, moments[2];
-  return A;
 }
 
 }  // namespace
@@ -161,7 +147,7 @@ void ModalBody::shorten(ModalBodyStateT<T>& state) const {
   for (int pair = 0; pair < 6; ++pair)
     state.stiffening_z.col(pair).noalias() = set_.stiffening.middleCols(pair * m, m) * state.z;
   const Eigen::Matrix<T, 6, 1> moments = state.stiffening_z.transpose().lazyProduct(state.z);
-  state.shortening = symmetric(moments);
+  state.shortening = matrix_of_form(moments);
   state.J -= state.shortening;
 }
 
@@ -171,7 +157,7 @@ void ModalBody::add_stiffening(ModalBodyStateT<T>& state) const {
   const Vector3T<T>& w = state.w_B;
   const Eigen::Matrix<T, 6, 1> rates = 2.0 * state.stiffening_z.transpose().lazyProduct(state.zdot);
   const Vector3T<T> momentum = state.shortening * w;
-  state.t_bias -= symmetric(rates) * w + w.cross(momentum);
+  state.t_bias -= matrix_of_form(rates) * w + w.cross(momentum);
   state.h_bias.noalias() += state.stiffening_z.lazyProduct(products_of_components(w));
 }
 

@@ -51,6 +51,10 @@ Matrix3 point_mass_inertia(const VectorX& node_mass, const Matrix3X& node_positi
   return B.trace() * Matrix3::Identity() - B;
 }
 
+VectorX mass_of_freedoms(const VectorX& node_mass) {
+  return node_mass.transpose().replicate(3, 1).reshaped();
+}
+
 MatrixX rigid_body_modes(const VectorX& node_mass, const Matrix3X& node_position) {
   const Matrix3 J = point_mass_inertia(node_mass, node_position);
   const Eigen::SelfAdjointEigenSolver<Matrix3> principal(J, Eigen::EigenvaluesOnly);
@@ -71,7 +75,7 @@ MatrixX rigid_body_modes(const VectorX& node_mass, const Matrix3X& node_position
 }
 
 MatrixX elastic_complement(const VectorX& node_mass, const Matrix3X& node_position) {
-  const VectorX root_mass = node_mass.transpose().replicate(3, 1).reshaped().cwiseSqrt();
+  const VectorX root_mass = mass_of_freedoms(node_mass).cwiseSqrt();
   const MatrixX Y = root_mass.asDiagonal() * rigid_body_modes(node_mass, node_position);
   MatrixX Q = MatrixX::Zero(Y.rows(), Y.rows() - Y.cols());
   Q.bottomRows(Q.cols()).setIdentity();

@@ -46,6 +46,9 @@ struct ModeSet {
 /// Inertia -sum m_i s_i~ s_i~ of mass points about the origin of their positions [kg m2].
 Matrix3 point_mass_inertia(const VectorX& node_mass, const Matrix3X& node_position);
 
+/// Diagonal of M (3n): the mass of every node three times, for x, y and z [kg].
+VectorX mass_of_freedoms(const VectorX& node_mass);
+
 /// The six rigid-body modes (3n x 6: three translations, three rotations) of mass points whose mass centre is
 /// the origin, mass-orthonormal by construction from geometry: with J = L L^T,
 ///     Psi_0i = [ 1/sqrt(m),  -s_i~ L^-T ].

@@ -11,7 +11,7 @@ namespace wishbone {
 namespace {
 
 VectorX inverse_root_masses(const NodalModel& model) {
-  return model.node_mass.transpose().replicate(3, 1).reshaped().cwiseSqrt().cwiseInverse();
+  return mass_of_freedoms(model.node_mass).cwiseSqrt().cwiseInverse();
 }
 
 /// Phi = M^-1/2 Q with orthonormal columns Q, and the model's matrices in them.

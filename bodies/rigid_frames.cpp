@@ -51,17 +51,12 @@ MatrixX simplified(const MatrixX& A) {
   return A;
 }
 
-/// The set in the shapes Phi N.
+/// The set in the shapes Phi N, but for its stiffness.
 ShapeSet in_basis(const ShapeSet& set, const MatrixX& N) {
   ShapeSet reduced = set;
   reduced.shapes = set.shapes * N;
-  reduced.stiffness = congruent(set.stiffness, N);
   reduced.damping = simplified(congruent(set.damping, N));
-  if (set.stiffening.size() == 0) return reduced;
-  const Index m = N.rows(), left = N.cols();
-  reduced.stiffening.resize(left, 6 * left);
-  for (Index pair = 0; pair < 6; ++pair)
-    reduced.stiffening.middleCols(pair * left, left) = congruent(set.stiffening.middleCols(pair * m, m), N);
+  reduced.stiffening = stiffening_in(set.stiffening, N);
   return reduced;
 }
 
@@ -95,7 +90,11 @@ ShapeSet with_rigid_frames(const ShapeSet& set, const std::vector<InterfaceFrame
          fmt::format("{} shape{}", set.shape_count(), set.shape_count() == 1 ? "" : "s"),
          "keep more modes, among them the attachment modes of the nodes of the frame; a body that is "
          "rigid altogether has 'modes: none'"});
-  if (!set.has_modes()) return in_basis(set, N);
+  if (!set.has_modes()) {
+    ShapeSet reduced = in_basis(set, N);
+    reduced.stiffness = congruent(set.stiffness, N);
+    return reduced;
+  }
   const ModalBasis modes(set.stiffness.col(0), N);
   ShapeSet reduced = in_basis(set, modes.NV);
   reduced.stiffness = modes.omega.cwiseAbs2();

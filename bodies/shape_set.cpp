@@ -66,8 +66,7 @@ void check_orthogonality(const ShapeSet& set) {
   constexpr double tolerance = ModeSet::kOrthogonalityTolerance;
   const int m = set.shape_count();
   if (m == 0) return;
-  const VectorX mass_of_row = set.node_mass.transpose().replicate(3, 1).reshaped();
-  const MatrixX M_shapes = mass_of_row.asDiagonal() * set.shapes;
+  const MatrixX M_shapes = mass_of_freedoms(set.node_mass).asDiagonal() * set.shapes;
   const double self = (set.shapes.transpose() * M_shapes - MatrixX::Identity(m, m)).cwiseAbs().maxCoeff();
   if (!(self <= tolerance))
     throw InputError(
@@ -110,6 +109,15 @@ void ShapeSet::validate() const {
   if (stiffening.size() == 0) return;
   const Eigen::Index m = shape_count();
   for (int pair = 0; pair < 6; ++pair) check_symmetry(stiffening.middleCols(pair * m, m), "stiffening");
+}
+
+MatrixX stiffening_in(const MatrixX& stiffening, const MatrixX& T) {
+  const Eigen::Index m = T.rows(), n = T.cols();
+  if (stiffening.size() == 0) return {};
+  MatrixX result(n, 6 * n);
+  for (int pair = 0; pair < 6; ++pair)
+    result.middleCols(pair * n, n) = T.transpose() * stiffening.middleCols(pair * m, m) * T;
+  return result;
 }
 
 ShapeSet shapes_of(const ModeSet& modes) {

@@ -40,6 +40,9 @@ struct ShapeSet {
   void validate() const;
 };
 
+/// Stiffening (ShapeSet::stiffening) over z as one over q, where z = T q: T^T K_ab T side by side. Of none, none.
+MatrixX stiffening_in(const MatrixX& stiffening, const MatrixX& T);
+
 /// The modes as shapes: K = diag(omega^2), C = diag(2 zeta omega), mean axes.
 ShapeSet shapes_of(const ModeSet& modes);
 

@@ -40,7 +40,7 @@ ModeSet free_free_modes(const std::vector<int>& node_ids, const VectorX& node_ma
   check_input(node_ids, node_mass, node_position, stiffness);
   const Vector3 centre = node_position * node_mass / node_mass.sum();
   const Matrix3X s = node_position.colwise() - centre;
-  const VectorX root_mass = node_mass.transpose().replicate(3, 1).reshaped().cwiseSqrt();
+  const VectorX root_mass = mass_of_freedoms(node_mass).cwiseSqrt();
   const VectorX inverse_root_mass = root_mass.cwiseInverse();
 
   // K_hat = M^-1/2 K M^-1/2 in mass-weighted coordinates, where rigid motion is Y = M^1/2 Psi_0, Y^T Y = 1

@@ -25,9 +25,9 @@ std::vector<ModeRow> mode_table(const ModeSet& set, const std::vector<ModeKind>&
 
 std::vector<ModeKind> inherited_kinds(const ModeSet& combined, const ModeSet& from,
                                       const std::vector<ModeKind>& kinds) {
-  const VectorX mass_of_row = from.node_mass.transpose().replicate(3, 1).reshaped();
   const MatrixX parts =
-      from.omega.asDiagonal() * (from.shapes.transpose() * mass_of_row.asDiagonal() * combined.shapes);
+      from.omega.asDiagonal() *
+      (from.shapes.transpose() * mass_of_freedoms(from.node_mass).asDiagonal() * combined.shapes);
   std::vector<ModeKind> inherited;
   for (const auto& part : parts.colwise()) inherited.push_back(largest_share(part.cwiseAbs2(), kinds));
   return inherited;

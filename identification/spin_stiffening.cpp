@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
-#include <array>
-
+#include "core/axis_pairs.h"
 #include "core/error.h"
 #include "identification/methods/held_stiffness.h"
 
@@ -13,40 +11,30 @@ namespace {
 
 using Displacements = Eigen::Matrix<double, Eigen::Dynamic, 6>;
 
-/// w x (w x r) = sum_{a <= b} w_a w_b E_ab r, for ab = xx, yy, zz, xy, xz, yz.
-std::array<Matrix3, 6> spin_matrices() {
-  constexpr std::array<std::array<int, 2>, 6> pairs{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
-  std::array<Matrix3, 6> E;
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const auto [a, b] = pairs[k];
-    E[k] = a == b ? Matrix3(-Matrix3::Identity()) : Matrix3(Matrix3::Zero());
-    E[k](a, b) += 1;
-    if (a != b) E[k](b, a) += 1;
-  }
+/// w x (w x r) = (w w^T - w^T w 1) r = sum_{a <= b} w_a w_b E_ab r
+Matrix3 spin_matrix(AxisPair pair) {
+  Matrix3 E = pair.a == pair.b ? Matrix3(-Matrix3::Identity()) : Matrix3(Matrix3::Zero());
+  E(pair.a, pair.b) += 1;
+  if (pair.a != pair.b) E(pair.b, pair.a) += 1;
   return E;
 }
 
 /// -m_i E_ab (s_i - s_C)
 Displacements spin_loads(const ModeSet& set, const Vector3& centre) {
-  const std::array<Matrix3, 6> E = spin_matrices();
   Displacements F(3 * set.node_count(), 6);
-  for (int k = 0; k < 6; ++k)
+  for (int k = 0; k < 6; ++k) {
+    const Matrix3 E = spin_matrix(kAxisPairs[k]);
     for (int i = 0; i < set.node_count(); ++i)
-      F.col(k).segment<3>(3 * i) =
-          -set.node_mass[i] * E[static_cast<std::size_t>(k)] * (set.node_position.col(i) - centre);
+      F.col(k).segment<3>(3 * i) = -set.node_mass[i] * E * (set.node_position.col(i) - centre);
+  }
   return F;
 }
 
-/// Whether no rigid motion of the body leaves the held freedoms where they are.
-void check_hold(const ModeSet& set, const std::vector<bool>& held) {
-  const MatrixX rigid = rigid_body_modes(set.node_mass, set.node_position);
-  std::vector<int> rows;
-  for (std::size_t i = 0; i < held.size(); ++i)
-    if (held[i]) rows.push_back(static_cast<int>(i));
-  const Eigen::ColPivHouseholderQR<MatrixX> qr(rigid(rows, Eigen::all));
-  if (qr.rank() == rigid.cols()) return;
+void check_hold(const ModeSet& set, const std::vector<int>& held) {
+  const Eigen::Index free = free_rigid_motions(rigid_body_modes(set.node_mass, set.node_position), held);
+  if (free == 0) return;
   throw InputError({"geometric stiffening", "the held nodes must hold the body",
-                    fmt::format("{} of 6 rigid motions left free", rigid.cols() - qr.rank()),
+                    fmt::format("{} of 6 rigid motions left free", free),
                     "name at least three nodes that do not lie on one line, or spin it 'free'"});
 }
 
@@ -55,7 +43,7 @@ Displacements spin_deflections(const SparseMatrix& K, const ModeSet& set, const 
   if (load.held.empty()) {
     Displacements F = spin_loads(set, load.centre.value_or(Vector3::Zero()));
     const MatrixX rigid = rigid_body_modes(set.node_mass, set.node_position);
-    const MatrixX M_rigid = set.node_mass.transpose().replicate(3, 1).reshaped().asDiagonal() * rigid;
+    const MatrixX M_rigid = mass_of_freedoms(set.node_mass).asDiagonal() * rigid;
     F -= M_rigid * (rigid.transpose() * F);
     const HeldStiffness support(K, determinate_support(rigid));
     Displacements x = support.solve(F);
@@ -63,13 +51,17 @@ Displacements spin_deflections(const SparseMatrix& K, const ModeSet& set, const 
     return x;
   }
   std::vector<bool> held(static_cast<std::size_t>(K.rows()), false);
+  std::vector<int> freedoms;
   Vector3 centre = Vector3::Zero();
   for (const int id : load.held) {
     const int node = set.node_index(id);
-    for (int axis = 0; axis < 3; ++axis) held[static_cast<std::size_t>(3 * node + axis)] = true;
+    for (int axis = 0; axis < 3; ++axis) {
+      freedoms.push_back(3 * node + axis);
+      held[static_cast<std::size_t>(freedoms.back())] = true;
+    }
     centre += set.node_position.col(node) / static_cast<double>(load.held.size());
   }
-  check_hold(set, held);
+  check_hold(set, freedoms);
   return HeldStiffness(K, held).solve(spin_loads(set, load.centre.value_or(centre)));
 }
 

@@ -63,32 +63,29 @@ class Compiler {
 
   ShapeSet shapes_of(int number) {
     const Scene::Body& body = scene_.bodies[static_cast<std::size_t>(number)];
-    const ModeSet modes = modes_.modes_of(number);
-    ShapeSet set = within(body.where, [&] {
-      modes.validate();
-      return with_rigid_frames(form_of(body, modes), rigid_frames(*body.flexible));
+    const StiffenedModes modes = modes_.modes_of(number);
+    return within(body.where, [&] {
+      modes.set.validate();
+      const ShapeSet set = body.form == Scene::BodyForm::kModal ? modal_form(modes) : nodal_form(body, modes);
+      return with_rigid_frames(set, rigid_frames(*body.flexible));
     });
-    set.stiffening = in_shapes(modes_.stiffening_of(number, modes), modes, set);
+  }
+
+  static ShapeSet modal_form(const StiffenedModes& modes) {
+    ShapeSet set = wishbone::shapes_of(modes.set);
+    set.stiffening = modes.stiffening;
     return set;
   }
 
-  /// Matrices over the modes side by side, over the shapes: with z_modes = Psi^T M Phi z = T z these are T^T K T.
-  static MatrixX in_shapes(const MatrixX& matrices, const ModeSet& modes, const ShapeSet& set) {
-    if (matrices.size() == 0) return {};
-    const VectorX mass = modes.node_mass.transpose().replicate(3, 1).reshaped();
-    const MatrixX T = modes.shapes.transpose() * mass.asDiagonal() * set.shapes;
-    const Eigen::Index m = T.rows(), n = T.cols();
-    MatrixX result(n, 6 * n);
-    for (int pair = 0; pair < 6; ++pair)
-      result.middleCols(pair * n, n) = T.transpose() * matrices.middleCols(pair * m, m) * T;
-    return result;
-  }
-
-  static ShapeSet form_of(const Scene::Body& body, const ModeSet& modes) {
-    if (body.form == Scene::BodyForm::kModal) return wishbone::shapes_of(modes);
-    const NodalModel model = nodal_model(modes);
+  static ShapeSet nodal_form(const Scene::Body& body, const StiffenedModes& modes) {
+    const NodalModel model = nodal_model(modes.set);
     const auto& axes = body.flexible->fixed_axes;
-    return axes ? fixed_axis_shapes(model, *axes) : mean_axis_shapes(model);
+    ShapeSet set = axes ? fixed_axis_shapes(model, *axes) : mean_axis_shapes(model);
+    // z_modes = Psi^T M Phi z
+    const VectorX mass = mass_of_freedoms(modes.set.node_mass);
+    set.stiffening =
+        stiffening_in(modes.stiffening, modes.set.shapes.transpose() * mass.asDiagonal() * set.shapes);
+    return set;
   }
 
   MarkerIndex marker(const Scene::Point& point) {

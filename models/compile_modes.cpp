@@ -36,14 +36,20 @@ const std::vector<int>& nodes_of(const Scene::StaticNodes& nodes, const std::vec
   return nodes.interfaces ? interfaces : nodes.ids;
 }
 
-FlexibleModes model_modes_of(const Scene::Flexible& flexible, const std::vector<int>& interfaces) {
-  const auto reduce = [&](const AnalyticalModel& model) {
-    return flexible_modes(model, flexible.modes, nodes_of(flexible.attachment, interfaces),
-                          nodes_of(flexible.constraint, interfaces), flexible.modes_of);
-  };
-  if (flexible.model) return reduce(*flexible.model);
+/// The model that the modes are computed from; of a block it is made here.
+std::shared_ptr<const AnalyticalModel> model_of(const Scene::Flexible& flexible) {
+  if (flexible.model) return flexible.model;
   const Scene::Block& b = *flexible.block;
-  return reduce(identification_sections::block_model(b.size, b.elements, b.young, b.poisson, b.density));
+  return std::make_shared<const AnalyticalModel>(
+      identification_sections::block_model(b.size, b.elements, b.young, b.poisson, b.density));
+}
+
+MatrixX stiffening_of(const Scene::Body& body, const AnalyticalModel& model, const ModeSet& modes) {
+  const auto& asked = body.flexible->stiffening;
+  if (!asked) return {};
+  SpinLoad load{asked->held, std::nullopt};
+  if (asked->centre_D) load.centre = body.X_DB.inverse() * *asked->centre_D;
+  return spin_stiffening(model.elements->mesh, model.elements->material, modes, load);
 }
 
 std::string static_text(const Scene::StaticNodes& nodes, const std::vector<int>& interfaces,
@@ -92,11 +98,12 @@ std::vector<InterfaceFrame> rigid_frames(const Scene::Flexible& flexible) {
   return rigid;
 }
 
-ModeSet ModeCompiler::modes_of(int index) {
+StiffenedModes ModeCompiler::modes_of(int index) {
   const Scene::Body& body = scene_.bodies[static_cast<std::size_t>(index)];
   const Scene::Flexible& flexible = *body.flexible;
   const std::vector<int> interfaces = interface_nodes(scene_, index);
   FlexibleModes modes;
+  MatrixX stiffening;
   std::string choice;
   within(body.where, [&] {
     if (flexible.identification) {
@@ -105,28 +112,17 @@ ModeSet ModeCompiler::modes_of(int index) {
       modes.kinds.assign(static_cast<std::size_t>(modes.set.mode_count()), ModeKind::normal);
       choice = "all identified modes";
     } else {
-      modes = model_modes_of(flexible, interfaces);
+      const auto model = model_of(flexible);
+      modes = flexible_modes(*model, flexible.modes, nodes_of(flexible.attachment, interfaces),
+                             nodes_of(flexible.constraint, interfaces), flexible.modes_of);
+      stiffening = stiffening_of(body, *model, modes.set);
       choice = choice_text(flexible, interfaces, modes);
     }
     return 0;
   });
   set_damping(body, modes.set);
   tables.push_back(within(body.where, [&] { return table_of(body, std::move(choice), modes, interfaces); }));
-  return std::move(modes.set);
-}
-
-MatrixX ModeCompiler::stiffening_of(int index, const ModeSet& modes) const {
-  const Scene::Body& body = scene_.bodies[static_cast<std::size_t>(index)];
-  const Scene::Flexible& flexible = *body.flexible;
-  if (!flexible.stiffening) return {};
-  SpinLoad load{flexible.stiffening->held, std::nullopt};
-  if (const auto& centre = flexible.stiffening->centre_D) load.centre = body.X_DB.inverse() * *centre;
-  return within(body.where, [&] {
-    if (flexible.model)
-      return spin_stiffening(flexible.model->elements->mesh, flexible.model->elements->material, modes, load);
-    const Scene::Block& b = *flexible.block;
-    return spin_stiffening(make_block(b.size, b.elements), {b.young, b.poisson, b.density}, modes, load);
-  });
+  return {std::move(modes.set), std::move(stiffening)};
 }
 
 }  // namespace wishbone

@@ -24,6 +24,12 @@ struct BodyModes {
   std::vector<ModeRow> modes;
 };
 
+/// Modes with the damping and the geometric stiffening (ShapeSet::stiffening; empty: none) that the scene asks for.
+struct StiffenedModes {
+  ModeSet set;
+  MatrixX stiffening;
+};
+
 InterfaceFrame interface_frame(const Scene::Frame& frame);
 /// Those of a body whose nodes keep their distances.
 std::vector<InterfaceFrame> rigid_frames(const Scene::Flexible& flexible);
@@ -33,13 +39,10 @@ class ModeCompiler {
  public:
   explicit ModeCompiler(const Scene& scene) : scene_(scene) {}
 
-  /// Modes of a body (index into `Scene::bodies`) with their damping, its rigid frames left out. The table has them
-  /// as the frames change them.
+  /// Modes of a body (index into `Scene::bodies`), its rigid frames left out. The table has them as the frames change
+  /// them.
   /// @throws InputError naming the place in the scene file
-  ModeSet modes_of(int body);
-  /// Geometric stiffening of these modes (ShapeSet::stiffening); empty where the scene asks for none.
-  /// @throws InputError likewise
-  MatrixX stiffening_of(int body, const ModeSet& modes) const;
+  StiffenedModes modes_of(int body);
 
   std::vector<IdentifiedBody> identified;  ///< so far
   std::vector<BodyModes> tables;           ///< so far

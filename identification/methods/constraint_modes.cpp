@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <set>
 
 #include "core/error.h"
 #include "identification/methods/expansion.h"
+#include "identification/methods/held_stiffness.h"
 
 namespace wishbone {
 namespace {
@@ -24,13 +24,11 @@ void check_freedoms(const SparseMatrix& K, const std::vector<int>& freedoms) {
 }
 
 void check_hold(const MatrixX& rigid, const std::vector<int>& freedoms) {
-  Eigen::ColPivHouseholderQR<MatrixX> qr;
-  qr.setThreshold(1e-6);
-  qr.compute(rigid(freedoms, Eigen::all));
-  if (qr.rank() < rigid.cols())
+  const Eigen::Index free = free_rigid_motions(rigid, freedoms);
+  if (free > 0)
     throw InputError({"constraint modes",
                       "the interface nodes must hold the body, for all its other nodes follow statically",
-                      fmt::format("{} of {} rigid motions are held", qr.rank(), rigid.cols()),
+                      fmt::format("{} of {} rigid motions are held", rigid.cols() - free, rigid.cols()),
                       "name at least three nodes that do not lie on one line, or take attachment modes"});
 }
 

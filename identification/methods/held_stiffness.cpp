@@ -17,6 +17,13 @@ std::vector<bool> determinate_support(const MatrixX& rigid) {
   return held;
 }
 
+Eigen::Index free_rigid_motions(const MatrixX& rigid, const std::vector<int>& held) {
+  Eigen::ColPivHouseholderQR<MatrixX> qr;
+  qr.setThreshold(1e-6);
+  qr.compute(rigid(held, Eigen::all));
+  return rigid.cols() - qr.rank();
+}
+
 HeldStiffness::HeldStiffness(const SparseMatrix& K, const std::vector<bool>& held) : place_(held.size(), -1) {
   for (std::size_t i = 0; i < held.size(); ++i)
     if (!held[i]) place_[i] = free_++;

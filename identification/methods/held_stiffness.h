@@ -11,6 +11,9 @@ namespace wishbone {
 /// a statically determinate support, which bears nothing under forces in equilibrium.
 std::vector<bool> determinate_support(const MatrixX& rigid);
 
+/// How many of the rigid motions (n x k) move none of the freedoms held, but for rounding.
+Eigen::Index free_rigid_motions(const MatrixX& rigid, const std::vector<int>& held);
+
 /// Stiffness matrix (n x n) [N/m] of a structure some of whose freedoms are held, factored once.
 class HeldStiffness {
  public:

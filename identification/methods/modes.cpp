@@ -47,7 +47,7 @@ SparseMatrix diagonal_matrix(const VectorX& d) {
 }
 
 SparseMatrix lumped_mass_matrix(const VectorX& node_mass) {
-  return diagonal_matrix(node_mass.transpose().replicate(3, 1).reshaped());
+  return diagonal_matrix(mass_of_freedoms(node_mass));
 }
 
 Modes solve_eigenproblem(const MatrixX& K, const MatrixX& M) {

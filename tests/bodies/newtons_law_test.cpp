@@ -20,7 +20,7 @@ using RealMatrixX = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 
 /// What the deflections of a form satisfy: six rows G with G delta = 0.
 MatrixX reference_condition(const ShapeSet& set) {
-  const VectorX mass = set.node_mass.transpose().replicate(3, 1).reshaped();
+  const VectorX mass = mass_of_freedoms(set.node_mass);
   if (set.mean_axes)
     return rigid_body_modes(set.node_mass, set.node_position).transpose() * mass.asDiagonal();
   MatrixX G = MatrixX::Zero(6, mass.size());

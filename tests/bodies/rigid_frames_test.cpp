@@ -62,7 +62,7 @@ MatrixX stiffness() {
   return MatrixX(stiffness_matrix(mesh(), kRubber));
 }
 VectorX masses() {
-  return all_modes().node_mass.transpose().replicate(3, 1).reshaped();
+  return mass_of_freedoms(all_modes().node_mass);
 }
 
 /// Elastic eigenvalues of a free structure, ascending.

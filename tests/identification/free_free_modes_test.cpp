@@ -56,7 +56,7 @@ TEST(FreeFreeModes, KeepTheMassPropertiesOfTheChassis) {
 TEST(FreeFreeModes, AreMassOrthonormalAndFreeOfRigidMotion) {
   const ModeSet& set = chassis();
   set.validate();
-  const VectorX mass = set.node_mass.transpose().replicate(3, 1).reshaped();
+  const VectorX mass = mass_of_freedoms(set.node_mass);
   const MatrixX gram = set.shapes.transpose() * mass.asDiagonal() * set.shapes;
   EXPECT_LE((gram - MatrixX::Identity(54, 54)).cwiseAbs().maxCoeff(), 1e-12);
   const MatrixX rigid = rigid_body_modes(set.node_mass, set.node_position);
@@ -68,7 +68,7 @@ TEST(FreeFreeModes, AreMassOrthonormalAndFreeOfRigidMotion) {
 TEST(FreeFreeModes, SolveTheEigenproblem) {
   const ModeSet& set = chassis();
   const MatrixX K = MatrixX(stiffness_matrix(chassis_mesh(), kChassisMaterial));
-  const VectorX mass = set.node_mass.transpose().replicate(3, 1).reshaped();
+  const VectorX mass = mass_of_freedoms(set.node_mass);
   const MatrixX residual =
       K * set.shapes - mass.asDiagonal() * set.shapes * set.omega.cwiseAbs2().asDiagonal();
   EXPECT_LE(residual.cwiseAbs().maxCoeff(), 1e-12 * (K * set.shapes).cwiseAbs().maxCoeff());
@@ -107,7 +107,7 @@ double lowest_beam_frequency(int k) {
   const HexahedralMesh mesh = make_block({1, 0.05, 0.05}, {20 * k, k, k});
   const IsotropicMaterial material{2.1e11, 0.3, 7850};
   const VectorX node_mass = lumped_mass(mesh, material.density);
-  const VectorX mass = node_mass.transpose().replicate(3, 1).reshaped();
+  const VectorX mass = mass_of_freedoms(node_mass);
   const MatrixX rigid = rigid_body_modes(node_mass, mesh.nodes);
   const Eigen::SparseMatrix<double> K = stiffness_matrix(mesh, material);
   Eigen::SparseMatrix<double> M(K.rows(), K.cols());

@@ -160,8 +160,7 @@ TEST(FlexibleMechanisms, AModeOfADampedBlockDecaysAtItsClosedFormRate) {
       b.add_flexible_body("block", set, {});
       Built m = build(std::move(b));
       const int first = m.system.flexible[0].z_rate_start;
-      const MatrixX M_shapes =
-          set.shapes.transpose() * set.node_mass.transpose().replicate(3, 1).reshaped().asDiagonal();
+      const MatrixX M_shapes = set.shapes.transpose() * mass_of_freedoms(set.node_mass).asDiagonal();
       m.state.v.segment(first, kAllModes) = M_shapes * (v * modes.shapes.col(j));
       const Trajectory run = simulate(m.system, m.state, 0.3, 0.05, 1e-11);
       ASSERT_EQ(run.summary.status, TransientSummary::Status::complete) << run.summary.message;
