@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bodies/mode_set.h"
 #include "core/error.h"
 
 namespace wishbone {
