@@ -4,7 +4,7 @@
 
 namespace wishbone {
 
-/// Prints on standard error what should be doubted of the modes that were identified for a scene, a line each:
+/// Prints on standard error what should be doubted of the modes of a scene's bodies, identified or chosen, a line each:
 /// "warning: BODY: ...".
 void print_warnings(const CompiledScene& compiled);
 

@@ -59,14 +59,12 @@ void InertiaInvariants::make_arrays(ModalBodyStateT<T>& state) const {
 template <class T>
 void InertiaInvariants::set_position(bool coupled, ModalBodyStateT<T>& state) const {
   InvariantProductsT<T>& products = state.products;
-  const Eigen::Index k = s_.cols();
   products.y.tail(m_) = state.z;
   products.symmetric.noalias() = symmetric_ * products.y;
   products.skew.noalias() = skew_ * products.y;
-  for (Eigen::Index i = 0; i < k; ++i) {
-    state.interface_b.col(i) = s_.col(i);
-    state.interface_b.col(i).noalias() += interface_.middleRows<3>(3 * i) * state.z;
-  }
+  Eigen::Map<VectorXT<T>> b(state.interface_b.data(), s_.size());
+  b = s_.reshaped();
+  b.noalias() += interface_ * state.z;
   // B_ab = 1/2 y^T (N_ab + N_ba) y,  J = tr(B) 1 - B
   Matrix3T<T> B;
   for (int pair = 0; pair < 6; ++pair) {
@@ -88,8 +86,7 @@ void InertiaInvariants::set_velocity(ModalBodyStateT<T>& state) const {
   InvariantProductsT<T>& products = state.products;
   const Vector3T<T>& w = state.w_B;
   products.skew_dot.noalias() = skew_.rightCols(m_) * state.zdot;
-  for (Eigen::Index i = 0; i < s_.cols(); ++i)
-    state.interface_delta_dot.col(i).noalias() = interface_.middleRows<3>(3 * i) * state.zdot;
+  Eigen::Map<VectorXT<T>>(state.interface_delta_dot.data(), s_.size()).noalias() = interface_ * state.zdot;
 
   // h = sum_{a <= b} (w~ w~)_ab G_ab y + 2 sum_a w_a D_a z';   Q_ab = sum m_i b_a delta_b':
   // Q_ab + Q_ba = z'^T G_ab y,  (Q_yz - Q_zy, ...) = S z'

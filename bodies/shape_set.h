@@ -29,6 +29,8 @@ struct ShapeSet {
   int shape_count() const { return static_cast<int>(shapes.cols()); }
   /// Whether the shapes are normal modes: K is diagonal, and a mode has an energy of its own.
   bool has_modes() const { return stiffness.cols() == 1; }
+  /// Whether neither stiffness nor damping couples the shapes.
+  bool uncoupled() const { return stiffness.cols() == 1 && damping.cols() == 1; }
   bool damped() const { return damping.size() > 0 && damping.cwiseAbs().maxCoeff() > 0; }
 
   /// Column of `node_position` that belongs to a node id. @throws InputError if there is no such node

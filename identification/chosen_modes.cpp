@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "core/error.h"
@@ -40,6 +42,18 @@ std::vector<Index> chosen_columns(const ModeChoice& choice, const Modes& modes, 
   return chosen;
 }
 
+std::vector<double> split_frequencies(const std::vector<Index>& chosen, const Modes& modes) {
+  constexpr double kEqual = 1e-6;  // of an eigenvalue
+  const auto is_chosen = [&](Index j) { return std::binary_search(chosen.begin(), chosen.end(), j); };
+  std::vector<double> split;
+  for (Index j = 0; j + 1 < modes.count(); ++j) {
+    const double gap = modes.lambda[j + 1] - modes.lambda[j];
+    if (is_chosen(j) != is_chosen(j + 1) && gap <= kEqual * modes.lambda[j + 1])
+      split.push_back(std::sqrt(modes.lambda[j]));
+  }
+  return split;
+}
+
 }  // namespace
 
 Index lowest_needed(const ModeChoice& choice, Index all, const std::function<Index(double)>& count_below,
@@ -48,12 +62,13 @@ Index lowest_needed(const ModeChoice& choice, Index all, const std::function<Ind
   if (needed > all)
     throw InputError({"flexible body", fmt::format("the body has {} {}", all, which),
                       fmt::format("{} wanted", needed), "choose fewer"});
-  return needed;
+  if (needed == 0 || std::holds_alternative<ModesBelow>(choice)) return needed;
+  return std::min(needed + 1, all);
 }
 
-Modes chosen_modes(const ModeChoice& choice, const Modes& lowest, std::string_view which) {
+ChosenModes chosen_modes(const ModeChoice& choice, const Modes& lowest, std::string_view which) {
   const std::vector<Index> chosen = chosen_columns(choice, lowest, which);
-  return {lowest.lambda(chosen), lowest.shapes(Eigen::all, chosen)};
+  return {{lowest.lambda(chosen), lowest.shapes(Eigen::all, chosen)}, split_frequencies(chosen, lowest)};
 }
 
 }  // namespace wishbone

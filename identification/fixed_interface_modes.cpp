@@ -19,8 +19,8 @@ SupportMatrices held(Index n, const std::vector<int>& freedoms) {
 
 }  // namespace
 
-Modes fixed_interface_modes(const AnalyticalModel& model, const ModeChoice& choice,
-                            const std::vector<int>& freedoms) {
+ChosenModes fixed_interface_modes(const AnalyticalModel& model, const ModeChoice& choice,
+                                  const std::vector<int>& freedoms) {
   constexpr const char* kWhich = "modes while its interfaces are held";
   const Index n = model.K.rows();
   const SupportMatrices support = held(n, freedoms);
@@ -29,7 +29,7 @@ Modes fixed_interface_modes(const AnalyticalModel& model, const ModeChoice& choi
   };
   const Index all = n - static_cast<Index>(freedoms.size());
   const Index needed = lowest_needed(choice, all, count_below, kWhich);
-  if (needed == 0) return {VectorX(0), MatrixX(n, 0)};
+  if (needed == 0) return {{VectorX(0), MatrixX(n, 0)}, {}};
   return chosen_modes(choice, model_modes(model.K, model.M, support, needed), kWhich);
 }
 

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "identification/chosen_modes.h"
 #include "identification/identify.h"
 #include "identification/mode_choice.h"
 
@@ -18,7 +19,7 @@ namespace wishbone {
 /// @throws InputError if more are chosen than there are, or if too many of a large model are wanted (model_modes.h)
 ///
 /// Source: R. R. Craig, M. C. C. Bampton, Coupling of substructures for dynamic analyses, AIAA J. 6 (1968) 1313-1319.
-Modes fixed_interface_modes(const AnalyticalModel& model, const ModeChoice& choice,
-                            const std::vector<int>& freedoms);
+ChosenModes fixed_interface_modes(const AnalyticalModel& model, const ModeChoice& choice,
+                                  const std::vector<int>& freedoms);
 
 }  // namespace wishbone

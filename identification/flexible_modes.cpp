@@ -37,15 +37,16 @@ MatrixX constraint_shapes(const AnalyticalModel& model, const MatrixX& rigid, co
   return constraint_modes(model.K, rigid, freedoms_of(nodes, model));
 }
 
-Modes no_modes(const AnalyticalModel& model) {
-  return {VectorX(0), MatrixX(model.K.rows(), 0)};
+ChosenModes no_modes(const AnalyticalModel& model) {
+  return {{VectorX(0), MatrixX(model.K.rows(), 0)}, {}};
 }
 
-MatrixX held_shapes(const AnalyticalModel& model, const ModeChoice& choice, const std::vector<int>& nodes) {
+ChosenModes held_modes(const AnalyticalModel& model, const ModeChoice& choice,
+                       const std::vector<int>& nodes) {
   if (nodes.empty())
     throw InputError({"flexible body", "modes with held interfaces need interfaces", "none",
                       "join the body to others at nodes or frames, or name nodes under 'constraint'"});
-  return fixed_interface_modes(model, choice, freedoms_of(nodes, model)).shapes;
+  return fixed_interface_modes(model, choice, freedoms_of(nodes, model));
 }
 
 }  // namespace
@@ -64,13 +65,13 @@ FlexibleModes flexible_modes(const AnalyticalModel& model, const ModeChoice& nor
   set.node_position = model.node_position.colwise() - centre;
 
   const bool held = of == NormalModes::of_held_interfaces;
-  const Modes kept = held ? no_modes(model) : normal_modes(model, normal);
+  const ChosenModes kept = held ? no_modes(model) : normal_modes(model, normal);
   const MatrixX rigid = rigid_body_modes(set.node_mass, set.node_position);
   const MatrixX attachment = attachment_shapes(model, rigid, attachment_nodes);
   const MatrixX constraint = constraint_shapes(model, rigid, constraint_nodes);
-  const MatrixX fixed_interface =
-      held ? held_shapes(model, normal, constraint_nodes) : no_modes(model).shapes;
-  CombinedModes all = combined_modes(model.K, model.M, rigid, kept, attachment, constraint, fixed_interface);
+  const ChosenModes fixed_interface = held ? held_modes(model, normal, constraint_nodes) : no_modes(model);
+  CombinedModes all =
+      combined_modes(model.K, model.M, rigid, kept, attachment, constraint, fixed_interface.shapes);
   if (all.modes.count() == 0)
     throw InputError({"flexible body", "no mode is chosen", describe(normal),
                       "raise the limit, or write 'modes: none' for a rigid body"});
@@ -79,6 +80,7 @@ FlexibleModes flexible_modes(const AnalyticalModel& model, const ModeChoice& nor
   set.damping_ratio = VectorX::Zero(set.omega.size());
   result.kinds = std::move(all.kinds);
   result.left_out = all.left_out;
+  result.split = held ? fixed_interface.split : kept.split;
   return result;
 }
 

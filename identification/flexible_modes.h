@@ -15,6 +15,7 @@ struct FlexibleModes {
   ModeSet set;
   std::vector<ModeKind> kinds;  ///< of each mode of the set
   Eigen::Index left_out = 0;    ///< static shapes that added nothing
+  std::vector<double> split;  ///< frequencies that the choice of modes separates (ChosenModes::split) [rad/s]
 };
 
 /// Chosen normal modes of a model with lumped masses and, at x, y and z of the nodes named, attachment and constraint

@@ -48,7 +48,7 @@ Modes sparse_modes(const AnalyticalModel& model, const MatrixX& rigid, Index cou
 
 }  // namespace
 
-Modes normal_modes(const AnalyticalModel& model, const ModeChoice& choice) {
+ChosenModes normal_modes(const AnalyticalModel& model, const ModeChoice& choice) {
   const Index n = model.K.rows();
   const auto count_below = [&](double omega) {
     // of a small model all are computed anyway
@@ -56,7 +56,7 @@ Modes normal_modes(const AnalyticalModel& model, const ModeChoice& choice) {
     return std::max<Index>(0, modes_below(model.K, model.M, omega * omega) - kRigid);
   };
   const Index needed = lowest_needed(choice, n - kRigid, count_below, kWhich);
-  if (needed == 0) return {VectorX(0), MatrixX(n, 0)};
+  if (needed == 0) return {{VectorX(0), MatrixX(n, 0)}, {}};
   const bool dense = n <= kSmall || 4 * (needed + kRigid) >= n;
   const Vector3 centre = model.node_position * model.node_mass / model.node_mass.sum();
   const Modes modes =

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "identification/chosen_modes.h"
 #include "identification/identify.h"
 #include "identification/mode_choice.h"
 
@@ -14,6 +15,6 @@ namespace wishbone {
 ///
 /// Throws InputError if the model is not free or has loose parts, if a number is listed that it has not, or if too many
 /// modes of a large model are wanted; NumericsError as the iteration does.
-Modes normal_modes(const AnalyticalModel& model, const ModeChoice& choice);
+ChosenModes normal_modes(const AnalyticalModel& model, const ModeChoice& choice);
 
 }  // namespace wishbone

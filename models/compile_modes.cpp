@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <numbers>
+
 #include "bodies/rigid_frames.h"
 #include "core/yaml.h"
 #include "identification/flexible_modes.h"
@@ -73,6 +75,14 @@ std::string choice_text(const Scene::Flexible& flexible, const std::vector<int>&
   return text;
 }
 
+std::string split_warning(double omega) {
+  return fmt::format(
+      "the choice separates modes of equal frequency, {:.4g} Hz: which deflections it keeps is a matter of "
+      "rounding, and a "
+      "symmetric body is not symmetric any more; choose one more or one less",
+      omega / (2 * std::numbers::pi));
+}
+
 /// With what rigid frames make of the modes.
 BodyModes table_of(const Scene::Body& body, std::string choice, const FlexibleModes& modes,
                    const std::vector<int>& interfaces) {
@@ -122,6 +132,7 @@ StiffenedModes ModeCompiler::modes_of(int index) {
   });
   set_damping(body, modes.set);
   tables.push_back(within(body.where, [&] { return table_of(body, std::move(choice), modes, interfaces); }));
+  for (const double omega : modes.split) tables.back().warnings.push_back(split_warning(omega));
   return {std::move(modes.set), std::move(stiffening)};
 }
 

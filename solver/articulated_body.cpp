@@ -32,8 +32,33 @@ void set_own_inertia(const TreeBody& body, const BodyMotion& s, ArticulatedBody&
   a.P.bottomRightCorner<3, 3>().diagonal().setConstant(body.mass);
 }
 
-/// Instantaneous inertia J(z), couplings S(z), c(z) and P (zero with mean axes) and unit modal mass; children's shares are
-/// added before they come by.
+/// sum += factor matrix, with a matrix or its diagonal.
+void add_scaled(const MatrixX& matrix, double factor, MatrixX& sum) {
+  if (matrix.cols() == 1)
+    sum.diagonal() += factor * matrix.col(0);
+  else
+    sum += factor * matrix;
+}
+
+/// M_zz = 1 + h C + h^2 K
+void set_modal_mass(const FlexibleBody& flexible, double h, CondensedModes& f) {
+  const ShapeSet& set = flexible.modal.set();
+  if (flexible.carries_joints || (h > 0 && !set.uncoupled())) {
+    f.mass = CondensedModes::Mass::full;
+    f.M_zz.setIdentity();
+    if (h == 0) return;
+    add_scaled(set.damping, h, f.M_zz);
+    add_scaled(set.stiffness, h * h, f.M_zz);
+  } else if (h > 0) {
+    f.mass = CondensedModes::Mass::diagonal;
+    f.diagonal = VectorX::Ones(f.diagonal.size()) + h * set.damping.col(0) + h * h * set.stiffness.col(0);
+  } else {
+    f.mass = CondensedModes::Mass::unit;
+  }
+}
+
+/// Instantaneous inertia J(z), couplings S(z), c(z) and P (zero with mean axes); children's shares are added before they come
+/// by.
 void set_own_inertia(const FlexibleBody& flexible, const BodyMotion& s, const ModalBodyState& modal,
                      ArticulatedBody& a, CondensedModes& f) {
   a.P.setZero();
@@ -48,15 +73,13 @@ void set_own_inertia(const FlexibleBody& flexible, const BodyMotion& s, const Mo
     a.P.bottomLeftCorner<3, 3>() = c_skew.transpose();
     f.Y.rightCols<3>().noalias() = flexible.modal.momentum_shape().transpose() * s.X_WB.R.transpose();
   }
-  if (flexible.carries_joints) f.M_zz.setIdentity();
 }
 
 /// P = M_rr - Y^T Y with Y = L_z^-1 M_zr.
 void condense_modes(const FlexibleBody& flexible, Matrix6& P, CondensedModes& f) {
-  if (flexible.carries_joints) {
-    Eigen::LLT<Eigen::Ref<MatrixX>> factor(f.M_zz);  // in place
-    f.M_zz.triangularView<Eigen::Lower>().solveInPlace(f.Y);
-  }
+  if (f.mass == CondensedModes::Mass::full) Eigen::LLT<Eigen::Ref<MatrixX>> factor(f.M_zz);  // in place
+  if (f.mass == CondensedModes::Mass::diagonal) f.diagonal = f.diagonal.cwiseSqrt();
+  f.solve(f.Y);
   if (flexible.carries_joints || !flexible.modal.mean_axes()) {
     P.noalias() -= f.Y.transpose() * f.Y;
   } else {
@@ -208,17 +231,19 @@ void set_biases(const System& system, Terms terms, Workspace& ws) {
 
 }  // namespace
 
-[[gnu::flatten]] void factor_inertia(const System& system, Workspace& ws) {
+[[gnu::flatten]] void factor_inertia(const System& system, Workspace& ws, double implicit_step) {
   ++ws.work.inertia;
   const int n = static_cast<int>(system.bodies.size());
   for (int i = 0; i < n; ++i) {
     const TreeBody& body = system.bodies[i];
     const int k = body.flexible;
-    if (k >= 0)
+    if (k >= 0) {
       set_own_inertia(system.flexible[k], ws.bodies[i], ws.flexible[k].modal, ws.articulated[i],
                       ws.condensed[k]);
-    else
+      set_modal_mass(system.flexible[k], implicit_step, ws.condensed[k]);
+    } else {
       set_own_inertia(body, ws.bodies[i], ws.articulated[i]);
+    }
   }
   for (int i = n - 1; i >= 0; --i) {
     const TreeBody& body = system.bodies[i];
@@ -243,8 +268,7 @@ void set_biases(const System& system, Terms terms, Workspace& ws) {
       // e_z = L_z^-1 (Q - h - what hangs on the interfaces)
       const CondensedModes& f = ws.condensed[body.flexible];
       auto e_z = modal_part(system.flexible[body.flexible], ws.e);
-      if (system.flexible[body.flexible].carries_joints)
-        f.M_zz.triangularView<Eigen::Lower>().solveInPlace(e_z);
+      f.solve(e_z);
       a.Z.noalias() += f.Y.transpose() * e_z;
     }
     pass_bias(body, ws, ws.e, a.Z);
@@ -290,7 +314,7 @@ void set_biases(const System& system, Terms terms, Workspace& ws) {
       VectorX& z_dd = ws.flexible[body.flexible].z_dd;
       z_dd = modal_part(flexible, ws.e);
       z_dd.noalias() -= f.Y * s.A;
-      if (flexible.carries_joints) f.M_zz.triangularView<Eigen::Lower>().transpose().solveInPlace(z_dd);
+      f.solve_transposed(z_dd);
       modal_part(flexible, v_rate) = z_dd;
     }
   }

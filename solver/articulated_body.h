@@ -18,8 +18,10 @@ namespace wishbone {
 ///
 /// M_zz is the identity unless joints hang on the body's interfaces, so a free flexible body costs O(modes).
 
-/// P+, G and pivots of all bodies, from the tips inward. Needs update_positions.
-void factor_inertia(const System& system, Workspace& ws);
+/// P+, G and pivots of all bodies, from the tips inward, of the mass matrix; or, of M + h C + h^2 K with C and K of the flexible
+/// bodies, where `implicit_step` h [s] is not zero: then what moves the modes has to overcome their stiffness too. Needs
+/// update_positions.
+void factor_inertia(const System& system, Workspace& ws, double implicit_step = 0);
 
 /// What enters an acceleration.
 enum class Terms {

@@ -49,8 +49,8 @@ void calc_correction(const System& system, const VectorX& lambda, Workspace& ws)
   calc_accelerations(system, Terms::hinge_forces, ws, ws.displacement);
 }
 
-void factor(const System& system, Workspace& ws) {
-  factor_inertia(system, ws);
+void factor(const System& system, Workspace& ws, double implicit_step = 0) {
+  factor_inertia(system, ws, implicit_step);
   factor_closures(system, kProjectionRankTolerance, ws);
 }
 
@@ -111,7 +111,8 @@ double rounding_rate(const Workspace& ws) {
   return (near_singular(ws) ? 1 : 32) * std::numeric_limits<double>::epsilon() * fastest;
 }
 
-bool project_positions(const System& system, double tolerance, bool& factored, State& state, Workspace& ws) {
+bool project_positions(const System& system, double tolerance, double implicit_step, bool& factored,
+                       State& state, Workspace& ws) {
   double last = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration <= kMaxProjections; ++iteration) {
     update_closed_kinematics(system, state, ws);
@@ -121,7 +122,7 @@ bool project_positions(const System& system, double tolerance, bool& factored, S
     // step and that multistep formulas amplify
     if (residual <= rounding_residual(ws)) return true;
     if (iteration > 0 && residual <= tolerance && (!near_singular(ws) || residual >= 0.5 * last)) return true;
-    if (!factored || residual > kFastConvergence * last) factor(system, ws);
+    if (!factored || residual > kFastConvergence * last) factor(system, ws, implicit_step);
     factored = true;
     last = residual;
     calc_projection(system, ws.Phi, ws);
@@ -130,13 +131,14 @@ bool project_positions(const System& system, double tolerance, bool& factored, S
   return false;
 }
 
-void project_velocities(const System& system, bool& factored, State& state, Workspace& ws) {
+void project_velocities(const System& system, double implicit_step, bool& factored, State& state,
+                        Workspace& ws) {
   double last = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration <= kMaxProjections; ++iteration) {
     if (iteration > 0) update_closed_kinematics(system, state, ws);
     const double residual = largest_kept(ws.Phi_rate, factored, ws);
     if (residual <= rounding_rate(ws) || !(residual < last)) return;
-    if (!factored || residual > kFastConvergence * last) factor(system, ws);
+    if (!factored || residual > kFastConvergence * last) factor(system, ws, implicit_step);
     factored = true;
     last = residual;
     calc_projection(system, ws.Phi_rate, ws);
@@ -149,7 +151,7 @@ void project_velocities(const System& system, bool& factored, State& state, Work
 bool close_trial(const System& system, State& state, Workspace& ws) {
   bool factored = false;
   try {
-    return project_positions(system, kProjectionTolerance, factored, state, ws) &&
+    return project_positions(system, kProjectionTolerance, 0, factored, state, ws) &&
            ws.Phi.cwiseAbs().maxCoeff() <= kContradictionTolerance;
   } catch (const NumericsError&) {
     return false;
@@ -232,10 +234,10 @@ bool near_singular(const Workspace& ws) {
   return ws.closure.least_sine < kNearSingular;
 }
 
-bool project(const System& system, double tolerance, State& state, Workspace& ws) {
+bool project(const System& system, double tolerance, State& state, Workspace& ws, double implicit_step) {
   bool factored = false;
-  if (!project_positions(system, tolerance, factored, state, ws)) return false;
-  project_velocities(system, factored, state, ws);
+  if (!project_positions(system, tolerance, implicit_step, factored, state, ws)) return false;
+  project_velocities(system, implicit_step, factored, state, ws);
   return true;
 }
 
@@ -261,7 +263,7 @@ AssemblyReport assemble(const System& system, State& state, Workspace& ws) {
 
   bool factored = false;
   update_closed_kinematics(system, state, ws);
-  project_velocities(system, factored, state, ws);
+  project_velocities(system, 0, factored, state, ws);
   ws.stiffening.resize(0);
   update_closed_kinematics(system, state, ws);
   remember_angles(system, state, ws);

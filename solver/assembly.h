@@ -38,8 +38,13 @@ inline constexpr int kMaxProjections = 20;
 /// then v <- v + M^-1 D^T lambda with D M^-1 D^T lambda = -(D v + Phi_t): the nearest consistent state, so that projecting
 /// creates no momentum. One factorisation serves while it converges fast. Next to a singular position the weakly closed
 /// directions are left alone. Far from the origin the tolerance gives way to the rounding of world positions.
+///
+/// After an implicit step that is long beside the vibrations of flexible bodies, the nearest state is one that vibrates: a
+/// displacement of the size of the tolerance, where the stiffness of the modes is to pull it back in the next step. With
+/// `implicit_step` h [s] the metric is M + h C + h^2 K (factor_inertia), that of the step's own equations, in which the modes
+/// take of the correction what they would have taken had the closures been solved along with them.
 /// Returns whether the closures could be closed.
-bool project(const System& system, double tolerance, State& state, Workspace& ws);
+bool project(const System& system, double tolerance, State& state, Workspace& ws, double implicit_step = 0);
 
 /// Makes the initial state consistent: finds the nearest closed pose in the metric of kinetic energy (each joint speed's
 /// share times its factor in System::assembly_weights), drops redundant closure rows, projects speeds. Damped steps and the

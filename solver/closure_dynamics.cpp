@@ -62,7 +62,7 @@ void sweep_body(const System& system, int i, int first, int columns, Workspace& 
   if (body.flexible >= 0) {
     auto u = modal_block(system, body.flexible, first, columns, ws);
     const CondensedModes& f = ws.condensed[body.flexible];
-    if (system.flexible[body.flexible].carries_joints) f.M_zz.triangularView<Eigen::Lower>().solveInPlace(u);
+    f.solve(u);
     z.noalias() -= f.Y.transpose() * u;
   }
   pass_through_joint(body, ws, z, ws.closure.U.block(body.v_start, first, body.nv, columns));

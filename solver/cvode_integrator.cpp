@@ -26,6 +26,7 @@ class CvodeIntegrator final : public Integrator {
   void restart(const State& state, const Work& work) override;
   Step step(double t_stop) override;
   void interpolate(double t, State& state, Work& work) override;
+  double implicit_step() const override;
   bool outlived() override { return equations_->outlived(); }
   Statistics statistics() const override;
 
@@ -86,7 +87,7 @@ int CvodeIntegrator::projected_rate(realtype t, N_Vector y, N_Vector y_rate, voi
   const int flag = equations.guard([&] {
     auto y_closed = sundials::map(integrator->scratch_);
     y_closed = sundials::map(y);
-    closed = equations.project(t, kProjectionTolerance, y_closed);
+    closed = equations.project(t, kProjectionTolerance, y_closed, 0);
     if (closed) equations.calc_rate(t, y_closed, sundials::map(y_rate));
   });
   return flag != 0 ? flag : (closed ? 0 : 1);
@@ -109,7 +110,7 @@ int CvodeIntegrator::project(realtype t, N_Vector y, N_Vector correction, realty
   const int flag = equations.guard([&] {
     auto c = sundials::map(correction);
     c = sundials::map(y);
-    closed = equations.project(t, kProjectionTolerance, c);
+    closed = equations.project(t, kProjectionTolerance, c, integrator->implicit_step());
     c -= sundials::map(y);
   });
   return flag != 0 ? flag : (closed ? 0 : 1);
@@ -178,6 +179,12 @@ Integrator::Step CvodeIntegrator::step(double t_stop) {
 void CvodeIntegrator::interpolate(double t, State& state, Work& work) {
   CVodeGetDky(cvode_.get(), t, 0, scratch_.get());
   equations_->unpack(t, sundials::map(scratch_), state, work);
+}
+
+double CvodeIntegrator::implicit_step() const {
+  double gamma = 0;
+  if (options_.method == Method::bdf) CVodeGetCurrentGamma(cvode_.get(), &gamma);
+  return gamma;
 }
 
 VectorX CvodeIntegrator::blame() const {

@@ -99,7 +99,7 @@ int ErkIntegrator::project(realtype t, N_Vector y, void* self) {
   FirstOrderSystem& equations = *static_cast<ErkIntegrator*>(self)->equations_;
   bool closed = true;
   const int flag =
-      equations.guard([&] { closed = equations.project(t, kProjectionTolerance, sundials::map(y)); });
+      equations.guard([&] { closed = equations.project(t, kProjectionTolerance, sundials::map(y), 0); });
   return flag != 0 ? flag : (closed ? 0 : 1);
 }
 

@@ -110,10 +110,11 @@ void FirstOrderSystem::calc_jacobian(double t, const Eigen::Ref<const VectorX>& 
   J.block(n, 0, 2, n) = derivatives_->work_rate;
 }
 
-bool FirstOrderSystem::project(double t, double tolerance, Eigen::Ref<VectorX> y) {
+bool FirstOrderSystem::project(double t, double tolerance, Eigen::Ref<VectorX> y, double implicit_step) {
   unpack(t, y, state_, work_);
   normalize_quaternions(system_, state_.q);
-  if (!ws_.closure.kept.empty() && !wishbone::project(system_, tolerance, state_, ws_)) return false;
+  if (!ws_.closure.kept.empty() && !wishbone::project(system_, tolerance, state_, ws_, implicit_step))
+    return false;
   y.head(system_.nq) = state_.q;
   y.segment(system_.nq, system_.nv) = state_.v;
   return y.allFinite();  // next to a singular position the corrections may overflow

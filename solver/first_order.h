@@ -38,8 +38,8 @@ class FirstOrderSystem {
   virtual void calc_rate(double t, const Eigen::Ref<const VectorX>& y, Eigen::Ref<VectorX> y_rate);
   /// J = df/dy, exact (solver/tangents.h).
   virtual void calc_jacobian(double t, const Eigen::Ref<const VectorX>& y, Eigen::Ref<MatrixX> J);
-  /// Brings y onto the closures, positions to `tolerance`; false when that fails.
-  virtual bool project(double t, double tolerance, Eigen::Ref<VectorX> y);
+  /// Brings y onto the closures, positions to `tolerance`, as wishbone::project does; false when that fails.
+  virtual bool project(double t, double tolerance, Eigen::Ref<VectorX> y, double implicit_step);
   void calc_events(double t, const Eigen::Ref<const VectorX>& y, double* g);
   /// After an accepted step: whether the choice of y no longer suits, so that the integration must start anew.
   virtual bool outlived();

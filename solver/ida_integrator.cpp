@@ -33,6 +33,7 @@ class IdaIntegrator final : public Integrator {
   void restart(const State& state, const Work& work) override;
   Step step(double t_stop) override;
   void interpolate(double t, State& state, Work& work) override;
+  double implicit_step() const override;
   /// Another choice of rows has other multipliers.
   bool outlived() override;
   Statistics statistics() const override;
@@ -196,6 +197,12 @@ Integrator::Step IdaIntegrator::step(double t_stop) {
 void IdaIntegrator::interpolate(double t, State& state, Work& work) {
   IDAGetDky(ida_.get(), t, 0, scratch_.get());
   equations_.unpack(t, sundials::map(scratch_).head(equations_.size()), state, work);
+}
+
+double IdaIntegrator::implicit_step() const {
+  double c = 0;  // of dF/dy + c dF/dy'
+  IDAGetCurrentCj(ida_.get(), &c);
+  return c > 0 ? 1 / c : 0;
 }
 
 bool IdaIntegrator::outlived() {

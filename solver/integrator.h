@@ -63,6 +63,9 @@ class Integrator {
   /// State and work at any time within the last step.
   virtual void interpolate(double t, State& state, Work& work) = 0;
 
+  /// Of implicit methods the step h [s] that Newton's iteration has last solved for, with the matrix 1 - h df/dy; 0 otherwise.
+  virtual double implicit_step() const { return 0; }
+
   /// After an accepted step: whether the integration must be restarted, because the variables it was set up for no longer suit.
   virtual bool outlived() = 0;
 

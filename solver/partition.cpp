@@ -303,7 +303,7 @@ void PartitionedSystem::calc_jacobian(double t, const Eigen::Ref<const VectorX>&
   J.block(n, 0, 2, n) = derivatives_.work_rate;
 }
 
-bool PartitionedSystem::project(double, double, Eigen::Ref<VectorX>) {
+bool PartitionedSystem::project(double, double, Eigen::Ref<VectorX>, double) {
   return true;  // closed by construction
 }
 

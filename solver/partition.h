@@ -24,7 +24,7 @@ class PartitionedSystem final : public FirstOrderSystem {
   void unpack(double t, const Eigen::Ref<const VectorX>& y, State& state, Work& work) override;
   void calc_rate(double t, const Eigen::Ref<const VectorX>& y, Eigen::Ref<VectorX> y_rate) override;
   void calc_jacobian(double t, const Eigen::Ref<const VectorX>& y, Eigen::Ref<MatrixX> J) override;
-  bool project(double t, double tolerance, Eigen::Ref<VectorX> y) override;
+  bool project(double t, double tolerance, Eigen::Ref<VectorX> y, double implicit_step) override;
   bool outlived() override;
   std::string name(Eigen::Index i) const override;
 

@@ -96,7 +96,7 @@ class Run {
     integrator_->interpolate(t, state_, work_);
     normalize_quaternions(system_, state_.q);
     if (ws_.closure.kept.empty()) return;
-    if (!project(system_, kProjectionTolerance, state_, ws_))
+    if (!project(system_, kProjectionTolerance, state_, ws_, integrator_->implicit_step()))
       throw NumericsError({fmt::format("t = {:.9g} s", t),
                            "the state could not be brought back onto the cut joints", "",
                            "tighten analysis.rtol, or look for a singular position at this time"});

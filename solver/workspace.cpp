@@ -34,6 +34,14 @@ Evaluation<T>::Evaluation(const System& system)
 template struct Evaluation<double>;
 template struct Evaluation<Dual>;
 
+CondensedModes::CondensedModes(const FlexibleBody& body) {
+  const int m = body.modal.mode_count();
+  diagonal.setOnes(m);
+  if (body.carries_joints || !body.modal.set().uncoupled()) M_zz.setIdentity(m, m);
+  Y.setZero(m, 6);
+  P_Psi.setZero(3, m);
+}
+
 Workspace::Workspace(const System& system)
     : Evaluation<double>(system),
       articulated(system.bodies.size()),
@@ -45,11 +53,7 @@ Workspace::Workspace(const System& system)
       lambda(VectorX::Zero(system.n_rows)),
       displacement(VectorX::Zero(system.nv)),
       z(Matrix6X::Zero(6, 6 * static_cast<Eigen::Index>(system.bodies.size()))) {
-  for (const FlexibleBody& body : system.flexible) {
-    const int m = body.modal.mode_count();
-    condensed.push_back({body.carries_joints ? MatrixX(MatrixX::Identity(m, m)) : MatrixX(),
-                         MatrixX::Zero(m, 6), Matrix3X::Zero(3, m)});
-  }
+  for (const FlexibleBody& body : system.flexible) condensed.emplace_back(body);
   keep_rows(all_rows(system), system, *this);
 }
 

@@ -17,11 +17,33 @@ struct ArticulatedBody {
 
 /// Modal coordinates of one flexible body while they are condensed.
 struct CondensedModes {
-  /// Modal mass: identity plus what hangs on the interfaces; then its Cholesky factor (lower triangle). Empty when no
-  /// joint hangs on them.
-  MatrixX M_zz;
-  MatrixX Y;       ///< L_z^-1 M_zr, m x 6
-  Matrix3X P_Psi;  ///< scratch: three rows of a child's P+ times the shapes of its interface
+  CondensedModes(const FlexibleBody& body);
+
+  enum class Mass {
+    unit,
+    diagonal,
+    full
+  } mass = Mass::unit;  ///< what M_zz is, and which of the next two holds it
+  VectorX diagonal;     ///< of M_zz, then of its Cholesky factor L_z
+  MatrixX M_zz;         ///< then L_z (lower triangle); empty where it is never needed
+  MatrixX Y;            ///< L_z^-1 M_zr, m x 6
+  Matrix3X P_Psi;       ///< scratch: three rows of a child's P+ times the shapes of its interface
+
+  /// x <- L_z^-1 x
+  template <class Derived>
+  void solve(Eigen::MatrixBase<Derived>&& x) const {
+    if (mass == Mass::full) M_zz.triangularView<Eigen::Lower>().solveInPlace(x);
+    if (mass == Mass::diagonal) x.array().colwise() /= diagonal.array();
+  }
+  template <class Derived>
+  void solve(Eigen::MatrixBase<Derived>& x) const {
+    solve(std::move(x));
+  }
+  /// x <- L_z^-T x
+  void solve_transposed(VectorX& x) const {
+    if (mass == Mass::full) M_zz.triangularView<Eigen::Lower>().transpose().solveInPlace(x);
+    if (mass == Mass::diagonal) x.array() /= diagonal.array();
+  }
 };
 
 /// Factor of D M^-1 D^T = U^T U for the rows that are solved for.

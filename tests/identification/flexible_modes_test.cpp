@@ -1,6 +1,7 @@
 // Modes of a free model as a flexible body has them: chosen normal modes and static shapes.
 #include "identification/flexible_modes.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -17,6 +18,10 @@
 
 namespace wishbone {
 namespace {
+
+using ::testing::DoubleNear;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 /// 6 x 5 x 7 nodes without symmetry, 630 freedoms: beyond the size of dense eigenproblems.
 TestStructure large_block() {
@@ -37,6 +42,15 @@ TEST(NormalModes, AreChosenByNumberFrequencyAndList) {
   expect(ModesBelow{std::sqrt(all.lambda[1]) * 1.0001}, {0, 1});  // two of equal frequency
   EXPECT_EQ(normal_modes(model, AllModes{}).count(), 54);
   EXPECT_EQ(normal_modes(model, ModesBelow{1e-3}).count(), 0);
+}
+
+TEST(NormalModes, OfEqualFrequencyAreNotSeparatedUnnoticed) {
+  const AnalyticalModel model = model_of(chassis());  // modes 1 and 2 are a pair, the section is square
+  const double pair = std::sqrt(chassis().elastic().lambda[0]);
+  EXPECT_THAT(normal_modes(model, LowestModes{1}).split, ElementsAre(DoubleNear(pair, 1e-9 * pair)));
+  EXPECT_THAT(normal_modes(model, ListedModes{{2}}).split, ElementsAre(DoubleNear(pair, 1e-9 * pair)));
+  EXPECT_THAT(normal_modes(model, LowestModes{2}).split, IsEmpty());
+  EXPECT_THAT(normal_modes(model, AllModes{}).split, IsEmpty());
 }
 
 TEST(NormalModes, OfALargeModelAreThoseOfTheDenseEigenproblem) {

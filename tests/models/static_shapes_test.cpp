@@ -1,4 +1,5 @@
 // Which modes a flexible body of a scene is given: chosen normal modes and static shapes at its interfaces.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -98,6 +99,21 @@ TEST_F(StaticShapes, AttachmentModesAreTakenAtInterfacesOrNamedNodes) {
 
   const MatrixX truth = statics(compiled_modes(compile(load("modes: all"))), {1, 4, 7, 12});
   EXPECT_LE((statics(named, {1, 4, 7, 12}) - truth).norm(), 1e-10 * truth.norm());
+}
+
+TEST_F(StaticShapes, AChoiceThatSeparatesModesOfEqualFrequencyIsDoubted) {
+  // the section is square: bending modes come in pairs, the first of them 1 and 2
+  const auto warnings = [&](std::string_view modes) { return compile(load(modes)).modes.at(0).warnings; };
+  const double hertz = compiled_modes(compile(load("modes: all"))).omega[0] / (2 * std::numbers::pi);
+  EXPECT_THAT(warnings("modes: 1"),
+              ElementsAre(fmt::format(
+                  "the choice separates modes of equal frequency, {:.4g} Hz: which deflections it keeps is a "
+                  "matter of "
+                  "rounding, and a symmetric body is not symmetric any more; choose one more or one less",
+                  hertz)));
+  EXPECT_EQ(warnings("modes: [2, 3]").size(), 1u);
+  EXPECT_THAT(warnings("modes: 2"), testing::IsEmpty());
+  EXPECT_THAT(warnings("modes: all"), testing::IsEmpty());
 }
 
 TEST_F(StaticShapes, ConstraintModesAreTakenToo) {

@@ -53,7 +53,10 @@ void expect_no_allocation(Built m) {
   EXPECT_EQ(allocations([&] { calc_closure_force<double>(m.system, lambda, ws, r.data()); }), 0);
   EXPECT_EQ(allocations([&] { calc_energy(m.system, s, ws); }), 0);
   EXPECT_EQ(allocations([&] { calc_work_rate<double>(m.system, s.t, lambda, ws); }), 0);
-  EXPECT_EQ(allocations([&] { project(m.system, kProjectionTolerance, s, ws); }), 0);
+  for (const double implicit_step : {0.0, 1e-3}) {
+    s.v.array() += 1e-6;
+    EXPECT_EQ(allocations([&] { project(m.system, kProjectionTolerance, s, ws, implicit_step); }), 0);
+  }
 }
 
 /// What IDA asks for.
