@@ -21,6 +21,7 @@ void add_convert(CLI::App& app, ExitCode& exit_code);
 void add_extract(CLI::App& app, ExitCode& exit_code);
 void add_identify(CLI::App& app, ExitCode& exit_code);
 void add_info(CLI::App& app, ExitCode& exit_code);
+void add_modes(CLI::App& app, ExitCode& exit_code);
 void add_plan(CLI::App& app, ExitCode& exit_code);
 void add_run(CLI::App& app, ExitCode& exit_code);
 

@@ -45,6 +45,7 @@ ExitCode run(int argc, char** argv) {
   add_compare(app, exit_code);
   add_extract(app, exit_code);
   add_identify(app, exit_code);
+  add_modes(app, exit_code);
   add_info(app, exit_code);
   add_convert(app, exit_code);
   try {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/analysis_options.h"
+#include "app/body_modes_text.h"
 #include "app/closure_text.h"
 #include "app/command.h"
 #include "app/scene_warnings.h"
@@ -48,20 +49,6 @@ void print_closures(const Plan& plan) {
     fmt::print("assembling moves a coordinate by {:.4g} (m or rad) at most\n", plan.displacement);
 }
 
-void print_modes(const std::vector<BodyModes>& bodies) {
-  for (const BodyModes& body : bodies) {
-    fmt::print("\nmodes of {}: {}\n", body.body, body.choice);
-    TextTable table({"kind", "mode", "f [Hz]", "zeta [%]", "effective mass [kg]", "at node"}, 1);
-    for (std::size_t j = 0; j < body.modes.size(); ++j) {
-      const ModeRow& mode = body.modes[j];
-      table.add_row({to_string(mode.kind), fmt::format("{}", j + 1), fmt::format("{:.6g}", mode.frequency),
-                     fmt::format("{:.4g}", 100 * mode.damping_ratio),
-                     fmt::format("{:.4g}", mode.effective_mass), fmt::format("{}", mode.node)});
-    }
-    fmt::print("{}", table.text());
-  }
-}
-
 void print_lines(const Scene& scene, const Plan& plan) {
   if (!scene.title.empty()) fmt::print("{}\n\n", scene.title);
   fmt::print("bodies                {:5d}   of which flexible {}\n", plan.bodies, plan.flexible_bodies);
@@ -77,7 +64,7 @@ void print_lines(const Scene& scene, const Plan& plan) {
   print_closures(plan);
   print_list("redundant closure rows, left out", plan.redundant_rows);
   print_list("tree", plan.tree);
-  print_modes(plan.modes);
+  for (const BodyModes& body : plan.modes) fmt::print("\n{}", text_of(body));
   print_list("identified", plan.identified);
   print_list("kept", plan.kept);
   print_list("left out", plan.left_out);
@@ -149,7 +136,7 @@ void print_json(const Plan& plan) {
 ExitCode run(const Options& options) {
   const Scene scene = load_scene(options.scene, options.set);
   CompiledScene compiled = compile(scene);
-  print_warnings(compiled);
+  print_warnings(compiled.identified, compiled.modes);
   apply(options.analysis, compiled.transient);
   const Plan plan = make_plan(scene, compiled);
   options.json ? print_json(plan) : print_lines(scene, plan);

@@ -5,12 +5,12 @@
 #include <csignal>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "app/analysis_options.h"
 #include "app/check_output.h"
 #include "app/closure_text.h"
 #include "app/command.h"
+#include "app/scene_inputs.h"
 #include "app/scene_warnings.h"
 #include "models/run_scene.h"
 #include "models/scene_loader.h"
@@ -71,28 +71,6 @@ class Progress {
   Clock::time_point last_line_ = Clock::now();  ///< of the log; a run of less than a second leaves none
 };
 
-/// The scene file and those that it includes, as far as something in the scene comes from them.
-std::vector<std::string> input_files(const std::string& path, const Scene& scene) {
-  std::set<std::string> files{path};
-  const auto note = [&](const Source& where) {
-    if (where.file) files.insert(*where.file);
-  };
-  const auto note_all = [&](const auto&... lists) {
-    const auto note_list = [&](const auto& list) {
-      for (const auto& item : list) note(item.where);
-    };
-    (note_list(lists), ...);
-  };
-  note_all(scene.bodies, scene.joints, scene.closures, scene.springs, scene.signals, scene.loads,
-           scene.drives, scene.tire_models, scene.tires, scene.motions);
-  if (scene.road) note(scene.road->where);
-  if (scene.vehicle) note(scene.vehicle->where);
-  note(scene.analysis.where);
-  note(scene.output.where);
-  files.insert(scene.data_files.begin(), scene.data_files.end());
-  return {files.begin(), files.end()};
-}
-
 const char* status_text(TransientSummary::Status status) {
   switch (status) {
     case TransientSummary::Status::complete:
@@ -151,7 +129,7 @@ ExitCode run(const Options& options) {
     if (body.is_flexible() && body.flexible->identification)
       check_output(identified_modes_path(options.output, body.name), inputs);
   CompiledScene compiled = compile(scene);
-  print_warnings(compiled);
+  print_warnings(compiled.identified, compiled.modes);
   apply(options.analysis, compiled.transient);
 
   std::signal(SIGINT, on_interrupt);

@@ -4,11 +4,11 @@
 
 namespace wishbone {
 
-void print_warnings(const CompiledScene& compiled) {
-  for (const IdentifiedBody& body : compiled.identified)
+void print_warnings(const std::vector<IdentifiedBody>& identified, const std::vector<BodyModes>& chosen) {
+  for (const IdentifiedBody& body : identified)
     for (const std::string& warning : body.identification.judgement.warnings)
       fmt::print(stderr, "warning: {}: {}\n", body.body, warning);
-  for (const BodyModes& body : compiled.modes)
+  for (const BodyModes& body : chosen)
     for (const std::string& warning : body.warnings)
       fmt::print(stderr, "warning: {}: {}\n", body.body, warning);
 }

@@ -14,6 +14,7 @@
 
 #include "identification/flexible_modes.h"
 #include "identification/formats/modal_file.h"
+#include "identification/mode_set_of.h"
 #include "models/compile.h"
 #include "models/scene_loader.h"
 #include "solver/assembly.h"
@@ -41,17 +42,8 @@ void reduce(const std::string& folder, const std::string& normal_modes) {
   const FlexibleModes reduced =
       flexible_modes(*flexible.model, flexible.modes, flexible.attachment.ids, flexible.constraint.ids);
   const ModeSet& set = reduced.set;
-  ModalData data;
-  data.title = "chassis of many nodes, normal and attachment modes";
-  data.node_ids = set.node_ids;
-  data.node_position = set.node_position;
-  data.node_mass = set.node_mass;
-  data.freedoms = all_freedoms(set.node_ids);
-  data.omega = set.omega;
-  data.damping_ratio = set.damping_ratio;
-  data.modal_mass = VectorX::Ones(set.mode_count());
-  data.shapes = set.shapes;
-  write_modal_data(folder + "/chassis.h5", data);
+  write_modal_data(folder + "/chassis.h5",
+                   modal_data_of(set, "chassis of many nodes, normal and attachment modes"));
   fmt::print("| nodes | shapes | reading, CPU s | modes, CPU s | peak memory, MB |\n|---|---|---|---|---|\n");
   fmt::print("| {} | {} | {:.2g} | {:.2g} | {:.0f} |\n", set.node_count(), set.mode_count(), read,
              cpu_seconds() - read, peak_megabytes());

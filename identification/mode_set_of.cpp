@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "core/error.h"
 #include "identification/methods/modes.h"
 
@@ -45,6 +47,20 @@ ModeSet mode_set_of(const ModalData& modes) {
                    .shapes;
   set.validate();
   return set;
+}
+
+ModalData modal_data_of(const ModeSet& set, std::string title) {
+  ModalData data;
+  data.title = std::move(title);
+  data.node_ids = set.node_ids;
+  data.node_position = set.node_position;
+  data.node_mass = set.node_mass;
+  data.freedoms = all_freedoms(set.node_ids);
+  data.omega = set.omega;
+  data.damping_ratio = set.damping_ratio;
+  data.modal_mass = VectorX::Ones(set.mode_count());
+  data.shapes = set.shapes;
+  return data;
 }
 
 }  // namespace wishbone

@@ -10,4 +10,7 @@ namespace wishbone {
 ///   each, and its modes are orthogonal to one another and to rigid motion (ModeSet::validate)
 ModeSet mode_set_of(const ModalData& modes);
 
+/// The way back: free-free modes as data that may be written to a file.
+ModalData modal_data_of(const ModeSet& set, std::string title);
+
 }  // namespace wishbone

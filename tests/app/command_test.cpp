@@ -42,7 +42,7 @@ class CommandTest : public testing::Test {
 
 TEST_F(CommandTest, HelpOfEveryCommandHasAnExample) {
   EXPECT_EQ(call("--help").code, 0);
-  for (const std::string command : {"check", "compare", "convert", "extract", "info"}) {
+  for (const std::string command : {"check", "compare", "convert", "extract", "info", "modes"}) {
     const Answer answer = call(command + " --help");
     EXPECT_EQ(answer.code, 0);
     EXPECT_THAT(answer.text, HasSubstr("Example:\n  wishbone " + command));

@@ -15,6 +15,7 @@
 #include "models/scene_loader.h"
 #include "solver/energy.h"
 #include "solver/forward_dynamics.h"
+#include "solver/loads.h"
 
 namespace wishbone {
 namespace {
@@ -79,6 +80,8 @@ std::vector<Account> run_four_bar(const std::vector<std::string>& overrides, dou
   std::vector<Account> accounts;
   const TransientSummary summary = run_transient(
       compiled.system, compiled.initial, options, run_ws, [&](const State& state, const Work& work) {
+        update_state(compiled.system, state, ws);
+        remember_angles(compiled.system, state, ws);  // the turns of the crank
         update_state(compiled.system, state, ws);
         EXPECT_LT(ws.Phi.cwiseAbs().maxCoeff(), 1e-11) << "at " << state.t << " s";
         accounts.push_back({calc_energy(compiled.system, state, ws), work});

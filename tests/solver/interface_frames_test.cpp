@@ -295,7 +295,7 @@ Cantilever loaded_cantilever(const HexahedralMesh& mesh, double factor) {
   b.add_force(AppliedLoad("force", b.add_marker({block, kTipNode}), {Vector3::Zero(), factor * kForce}));
   b.add_force(AppliedLoad("moment", b.add_marker(tip), {factor * kMoment, Vector3::Zero()}));
   const Built m = build(std::move(b));
-  const Trajectory run = simulate(m.system, m.state, 20, 20, 1e-10, Method::bdf);
+  const Trajectory run = simulate(m.system, m.state, 20, 20, 1e-12, Method::bdf);
   EXPECT_EQ(run.summary.status, TransientSummary::Status::complete) << run.summary.message;
   Workspace ws = testing::with_independent_rows(m);
   calc_forward_dynamics(m.system, run.last(), ws);

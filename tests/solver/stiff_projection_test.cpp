@@ -60,7 +60,8 @@ MatrixX metric(const Built& m, double h) {
   for (const FlexibleBody& body : m.system.flexible) {
     const ShapeSet& set = body.modal.set();
     const int n = body.modal.mode_count();
-    W.block(body.z_rate_start, body.z_rate_start, n, n) += h * full(set.damping) + h * h * full(set.stiffness);
+    W.block(body.z_rate_start, body.z_rate_start, n, n) +=
+        h * full(set.damping) + h * h * full(set.stiffness);
   }
   return W;
 }
