@@ -29,11 +29,12 @@ int flexible_body(const Scene& scene, const Options& options) {
   std::vector<std::string> names;
   for (const Scene::Body& body : scene.bodies)
     if (body.is_flexible()) names.push_back(body.name);
-  const auto found =
-      std::find_if(scene.bodies.begin(), scene.bodies.end(),
-                   [&](const Scene::Body& body) { return body.is_flexible() && body.name == options.body; });
+  const auto found = std::find_if(scene.bodies.begin(), scene.bodies.end(), [&](const Scene::Body& body) {
+    return body.is_flexible() && body.name == options.body;
+  });
   if (found == scene.bodies.end())
-    throw InputError({options.scene, "no flexible body of the scene has this name", fmt::format("'{}'", options.body),
+    throw InputError({options.scene, "no flexible body of the scene has this name",
+                      fmt::format("'{}'", options.body),
                       names.empty() ? "none is flexible: write 'form: modal'"
                                     : did_you_mean(options.body, names, "the flexible bodies")});
   return static_cast<int>(found - scene.bodies.begin());
@@ -41,14 +42,15 @@ int flexible_body(const Scene& scene, const Options& options) {
 
 ExitCode run(const Options& options) {
   const Scene scene = load_scene(options.scene, options.set);
-  for (const auto& file : modal_data_files(options.output)) check_output(file.string(), input_files(options.scene, scene));
+  for (const auto& file : modal_data_files(options.output))
+    check_output(file.string(), input_files(options.scene, scene));
   const int body = flexible_body(scene, options);
   ModeCompiler compiler(scene);
   const StiffenedModes modes = compiler.modes_of(body);
   print_warnings(compiler.identified, compiler.tables);
   write_modal_data(options.output, modal_data_of(modes.set, options.body + " of " + options.scene));
-  fmt::print("{}\n{}: {} nodes, {} modes\n", text_of(compiler.tables.back()), options.output, modes.set.node_count(),
-             modes.set.mode_count());
+  fmt::print("{}\n{}: {} nodes, {} modes\n", text_of(compiler.tables.back()), options.output,
+             modes.set.node_count(), modes.set.mode_count());
   return kDone;
 }
 
@@ -59,9 +61,12 @@ void add_modes(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command = app.add_subcommand("modes", "Find the modes of a flexible body once and store them");
   add_scene_arguments(*command, options->scene, options->set);
   command->add_option("BODY", options->body, "flexible body of the scene")->required();
-  command->add_option("-o,--output", options->output, "file of modes to write, as `wishbone convert` writes it")->required();
+  command
+      ->add_option("-o,--output", options->output, "file of modes to write, as `wishbone convert` writes it")
+      ->required();
   command->footer(
-      "Normal and static modes as the scene chooses them. A scene that says 'modes: {measured: {file: OUT.h5}}' of the body\n"
+      "Normal and static modes as the scene chooses them. A scene that says 'modes: {measured: {file: "
+      "OUT.h5}}' of the body\n"
       "reads them instead of finding them in every run.\n\n"
       "Example:\n  wishbone modes models/scenes/examples/flexible_arm.yaml arm -o arm.h5");
   command->callback([options, &exit_code] { exit_code = run(*options); });

@@ -83,14 +83,13 @@ int CvodeIntegrator::rate(realtype t, N_Vector y, N_Vector y_rate, void* self) {
 int CvodeIntegrator::projected_rate(realtype t, N_Vector y, N_Vector y_rate, void* self) {
   auto* integrator = static_cast<CvodeIntegrator*>(self);
   FirstOrderSystem& equations = *integrator->equations_;
-  bool closed = true;
-  const int flag = equations.guard([&] {
+  return equations.guard([&] {
     auto y_closed = sundials::map(integrator->scratch_);
     y_closed = sundials::map(y);
-    closed = equations.project(t, kProjectionTolerance, y_closed, 0);
+    const bool closed = equations.project(t, kProjectionTolerance, y_closed, 0);
     if (closed) equations.calc_rate(t, y_closed, sundials::map(y_rate));
+    return closed;
   });
-  return flag != 0 ? flag : (closed ? 0 : 1);
 }
 
 int CvodeIntegrator::jacobian(realtype t, N_Vector y, N_Vector /*y_rate*/, SUNMatrix J, void* self, N_Vector,
@@ -106,14 +105,13 @@ int CvodeIntegrator::project(realtype t, N_Vector y, N_Vector correction, realty
                              void* self) {
   auto* integrator = static_cast<CvodeIntegrator*>(self);
   FirstOrderSystem& equations = *integrator->equations_;
-  bool closed = true;
-  const int flag = equations.guard([&] {
+  return equations.guard([&] {
     auto c = sundials::map(correction);
     c = sundials::map(y);
-    closed = equations.project(t, kProjectionTolerance, c, integrator->implicit_step());
+    const bool closed = equations.project(t, kProjectionTolerance, c, integrator->implicit_step());
     c -= sundials::map(y);
+    return closed;
   });
-  return flag != 0 ? flag : (closed ? 0 : 1);
 }
 
 int CvodeIntegrator::events(realtype t, N_Vector y, realtype* g, void* self) {

@@ -97,10 +97,7 @@ int ErkIntegrator::rate(realtype t, N_Vector y, N_Vector y_rate, void* self) {
 
 int ErkIntegrator::project(realtype t, N_Vector y, void* self) {
   FirstOrderSystem& equations = *static_cast<ErkIntegrator*>(self)->equations_;
-  bool closed = true;
-  const int flag =
-      equations.guard([&] { closed = equations.project(t, kProjectionTolerance, sundials::map(y), 0); });
-  return flag != 0 ? flag : (closed ? 0 : 1);
+  return equations.guard([&] { return equations.project(t, kProjectionTolerance, sundials::map(y), 0); });
 }
 
 int ErkIntegrator::events(realtype t, N_Vector y, realtype* g, void* self) {

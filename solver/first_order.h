@@ -3,6 +3,7 @@
 #include <exception>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "core/error.h"
@@ -53,11 +54,12 @@ class FirstOrderSystem {
   /// Name of an entry of y for messages.
   virtual std::string name(Eigen::Index i) const;
 
-  /// Runs a callback's body: 0 when it went well, 1 (try a smaller step) after a NumericsError or a non-finite result, -1
+  /// Runs a callback's body: 0 when it went well, 1 (try a smaller step) after a NumericsError or when the body says false, -1
   /// after any other exception. The exception is kept.
   template <class Body>
   int guard(Body&& body) noexcept {
     try {
+      if constexpr (std::is_same_v<std::invoke_result_t<Body>, bool>) return body() ? 0 : 1;
       body();
       return 0;
     } catch (const NumericsError&) {

@@ -48,14 +48,17 @@ class ModesCommand : public testing::Test {
 TEST_F(ModesCommand, AStoredBodyIsTheBodyThatWasReduced) {
   const Answer answer = call("modes " + scene_ + " beam -o " + out_);
   EXPECT_EQ(answer.code, 0) << answer.text;
-  EXPECT_THAT(answer.text, AllOf(HasSubstr("modes of beam: automatic: the normal modes below 40 Hz and attachment modes of 2 "
-                                           "interfaces"),
-                                 HasSubstr("attachment"), HasSubstr("beam.h5: 16 nodes, ")));
+  EXPECT_THAT(
+      answer.text,
+      AllOf(HasSubstr("modes of beam: automatic: the normal modes below 40 Hz and attachment modes of 2 "
+                      "interfaces"),
+            HasSubstr("attachment"), HasSubstr("beam.h5: 16 nodes, ")));
   const auto shapes_in = [](const std::string& scene) {
     return compile(load_scene(scene)).system.flexible.at(0).modal.set();
   };
   const ShapeSet found = shapes_in(scene_);
-  const ShapeSet read = shapes_in(files_.write("stored.yaml", scene_with("{modes: {measured: {file: beam.h5}}}")));
+  const ShapeSet read =
+      shapes_in(files_.write("stored.yaml", scene_with("{modes: {measured: {file: beam.h5}}}")));
   ASSERT_EQ(read.shape_count(), found.shape_count());
   EXPECT_LE((read.shapes - found.shapes).norm(), 1e-12 * found.shapes.norm());
   EXPECT_LE((read.stiffness - found.stiffness).norm(), 1e-12 * found.stiffness.norm());

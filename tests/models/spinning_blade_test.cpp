@@ -48,7 +48,8 @@ class SpinningBlade : public testing::Test {
   /// Of the tip under its weight, at the end [m].
   double sag(const std::vector<std::string>& overrides, bool stiffened = true) const {
     std::string text(kSaggingBlade);
-    if (!stiffened) text.erase(text.find("      stiffening:"), text.find("joints:") - text.find("      stiffening:"));
+    if (!stiffened)
+      text.erase(text.find("      stiffening:"), text.find("joints:") - text.find("      stiffening:"));
     const Scene scene = load_scene(files_.write("blade.yaml", text), overrides);
     const auto file = files_ / "blade.h5";
     const TransientSummary summary = run_scene(scene, compile(scene), {"blade.yaml", file, {}, {}}).summary;
@@ -86,7 +87,8 @@ double sag_of_beam(double c, double spin, double share) {
       [&](double x) {
         const double T = spin * spin * (1 - x * x) / 2;
         const Row w1 = shapes(x, 1), w2 = shapes(x, 2), bent = w1 - theta;
-        return Matrix(c * w2 * w2.transpose() + T * w1 * w1.transpose() - (1 - share) * T * bent * bent.transpose());
+        return Matrix(c * w2 * w2.transpose() + T * w1 * w1.transpose() -
+                      (1 - share) * T * bent * bent.transpose());
       },
       Matrix(Matrix::Zero()));
   const Row weight = integrate([&](double x) { return shapes(x, 0); }, Row(Row::Zero()));
