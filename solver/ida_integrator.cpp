@@ -23,7 +23,8 @@
 namespace wishbone {
 namespace {
 
-/// Integrals of multipliers steer nothing, and their size (impulses) is that of forces, not of motions.
+/// Of integrals of multipliers in Newton's iteration: they steer nothing, and their size (impulses) is that of forces, not of
+/// motions.
 constexpr double kMultiplierTolerance = 1e3;
 
 class IdaIntegrator final : public Integrator {
@@ -48,6 +49,7 @@ class IdaIntegrator final : public Integrator {
   void calc_jacobian(double t, double c, N_Vector y, N_Vector y_rate, SUNMatrix J);
   void choose_rows();
   void make_linear_solver();
+  void leave_multipliers_untested();
   void create();
   VectorX blame() const;
 
@@ -144,6 +146,16 @@ void IdaIntegrator::make_linear_solver() {
   }
 }
 
+/// Multipliers and their integrals follow from the motion. In an equation of index 2 their estimated errors do not fall with the
+/// step as those of q and v do, so these alone decide on it.
+void IdaIntegrator::leave_multipliers_untested() {
+  auto tested = sundials::map(scratch_);
+  tested.setZero();
+  tested.head(equations_.size()).setOnes();
+  IDASetId(ida_.get(), scratch_.get());
+  IDASetSuppressAlg(ida_.get(), SUNTRUE);
+}
+
 void IdaIntegrator::create() {
   ida_.reset(IDACreate(context_));
   void* ida = ida_.get();
@@ -152,6 +164,7 @@ void IdaIntegrator::create() {
   IDAInit(ida, residual, t_, y_.get(), y_rate_.get());
   IDASVtolerances(ida, equations_.tolerance_scale() * options_.rtol, tolerances_.get());
   IDASetUserData(ida, this);
+  leave_multipliers_untested();
   IDASetMaxNumSteps(ida, -1);  // counted by the caller
   if (options_.max_step > 0) IDASetMaxStep(ida, options_.max_step);
   make_linear_solver();
