@@ -1,5 +1,4 @@
 #include <fmt/core.h>
-#include <fmt/ranges.h>
 
 #include <memory>
 
@@ -28,8 +27,7 @@ ExitCode run(const Options& options) {
   const ModalData data = read_modal_data(options.input);
   write_modal_data(options.output, data);
   fmt::print("{}: {}\n", options.output, brief(data));
-  if (const auto lost = lost_in_modal_data(options.output, data); !lost.empty())
-    fmt::print("left out, for the format has no place for it: {}\n", fmt::join(lost, ", "));
+  print_lost(options.output, data);
   return kDone;
 }
 

@@ -1,12 +1,14 @@
 #include "app/modal_summary.h"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "app/meta_text.h"
 #include "app/text_table.h"
+#include "identification/formats/modal_file.h"
 #include "identification/formats/mode_file.h"
 
 namespace wishbone {
@@ -66,6 +68,11 @@ std::string brief(const ModalData& data) {
     text += fmt::format(" from {} Hz to {} Hz", brief(hertz(data.omega[0])),
                         brief(hertz(data.omega[data.mode_count() - 1])));
   return text + ", " + describe_support(data.support);
+}
+
+void print_lost(const std::string& path, const ModalData& data) {
+  if (const auto lost = lost_in_modal_data(path, data); !lost.empty())
+    fmt::print("left out, for the format has no place for it: {}\n", fmt::join(lost, ", "));
 }
 
 void print_modal_data(const ModalData& data) {

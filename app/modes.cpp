@@ -7,6 +7,7 @@
 #include "app/body_modes_text.h"
 #include "app/check_output.h"
 #include "app/command.h"
+#include "app/modal_summary.h"
 #include "app/scene_inputs.h"
 #include "app/scene_warnings.h"
 #include "core/did_you_mean.h"
@@ -48,9 +49,11 @@ ExitCode run(const Options& options) {
   ModeCompiler compiler(scene);
   const StiffenedModes modes = compiler.modes_of(body);
   print_warnings(compiler.identified, compiler.tables);
-  write_modal_data(options.output, modal_data_of(modes.set, options.body + " of " + options.scene));
+  const ModalData data = modal_data_of(modes.set, options.body + " of " + options.scene);
+  write_modal_data(options.output, data);
   fmt::print("{}\n{}: {} nodes, {} modes\n", text_of(compiler.tables.back()), options.output,
              modes.set.node_count(), modes.set.mode_count());
+  print_lost(options.output, data);
   return kDone;
 }
 

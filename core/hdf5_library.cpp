@@ -1,0 +1,73 @@
+#include "core/hdf5_library.h"
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+
+#include "core/error.h"
+
+namespace wishbone::hdf5 {
+namespace {
+
+/// The innermost message of the current error stack: the cause, not the chain of callers.
+std::string library_message() {
+  std::string message;
+  H5Ewalk2(
+      H5E_DEFAULT, H5E_WALK_UPWARD,
+      [](unsigned n, const H5E_error2_t* e, void* out) -> herr_t {
+        if (n == 0 && e->desc) *static_cast<std::string*>(out) = e->desc;
+        return 0;
+      },
+      &message);
+  return message;
+}
+
+}  // namespace
+
+void fail_reading(const std::string& where, const std::string& what,
+                               const std::string& remedy) {
+  const std::string cause = library_message();
+  throw InputError({where, cause.empty() ? what : what + ": " + cause, "", remedy});
+}
+
+void fail_writing(const std::string& where, const std::string& what) {
+  const std::string cause = library_message();
+  throw NumericsError(
+      {where, cause.empty() ? what : what + ": " + cause, "",
+       "check the free space and the permissions of the folder, and that no other program has the "
+       "file open"});
+}
+
+std::string where_is(const Object& object) {
+  return object.file_path() + ":" + object.path();
+}
+
+Handle text_type() {
+  Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type.get(), H5T_VARIABLE);
+  H5Tset_cset(type.get(), H5T_CSET_UTF8);
+  return type;
+}
+
+Handle simple_space(const Shape& shape) {
+  const std::vector<hsize_t> lengths(shape.begin(), shape.end());
+  if (lengths.empty()) return Handle(H5Screate(H5S_SCALAR), H5Sclose);
+  return Handle(H5Screate_simple(static_cast<int>(lengths.size()), lengths.data(), nullptr), H5Sclose);
+}
+
+std::size_t element_count(const Shape& shape) {
+  return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
+}
+
+Shape shape_of(hid_t space) {
+  std::vector<hsize_t> lengths(static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space))));
+  H5Sget_simple_extent_dims(space, lengths.data(), nullptr);
+  return Shape(lengths.begin(), lengths.end());
+}
+
+bool is_number(hid_t type) {
+  const H5T_class_t kind = H5Tget_class(type);
+  return kind == H5T_INTEGER || kind == H5T_FLOAT;
+}
+
+}  // namespace wishbone::hdf5
