@@ -17,7 +17,7 @@ struct ArticulatedBody {
 
 /// Modal coordinates of one flexible body while they are condensed.
 struct CondensedModes {
-  CondensedModes(const FlexibleBody& body);
+  explicit CondensedModes(const FlexibleBody& body);
 
   enum class Mass {
     unit,
@@ -31,13 +31,9 @@ struct CondensedModes {
 
   /// x <- L_z^-1 x
   template <class Derived>
-  void solve(Eigen::MatrixBase<Derived>&& x) const {
+  void solve(Eigen::MatrixBase<Derived>& x) const {
     if (mass == Mass::full) M_zz.triangularView<Eigen::Lower>().solveInPlace(x);
     if (mass == Mass::diagonal) x.array().colwise() /= diagonal.array();
-  }
-  template <class Derived>
-  void solve(Eigen::MatrixBase<Derived>& x) const {
-    solve(std::move(x));
   }
   /// x <- L_z^-T x
   void solve_transposed(VectorX& x) const {
