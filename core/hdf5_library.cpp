@@ -24,8 +24,7 @@ std::string library_message() {
 
 }  // namespace
 
-void fail_reading(const std::string& where, const std::string& what,
-                               const std::string& remedy) {
+void fail_reading(const std::string& where, const std::string& what, const std::string& remedy) {
   const std::string cause = library_message();
   throw InputError({where, cause.empty() ? what : what + ": " + cause, "", remedy});
 }

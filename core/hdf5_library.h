@@ -26,7 +26,8 @@ class Silence {
 };
 
 /// @throws InputError with what the library says of the cause
-[[noreturn]] void fail_reading(const std::string& where, const std::string& what, const std::string& remedy = {});
+[[noreturn]] void fail_reading(const std::string& where, const std::string& what,
+                               const std::string& remedy = {});
 /// @throws NumericsError likewise
 [[noreturn]] void fail_writing(const std::string& where, const std::string& what);
 
