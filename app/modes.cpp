@@ -71,7 +71,7 @@ void add_modes(CLI::App& app, ExitCode& exit_code) {
       "Normal and static modes as the scene chooses them. A scene that says 'modes: {measured: {file: "
       "OUT.h5}}' of the body\n"
       "reads them instead of finding them in every run.\n\n"
-      "Example:\n  wishbone modes models/scenes/examples/flexible_arm.yaml arm -o arm.h5");
+      "Example:\n  wishbone modes models/scenes/examples/flexible_arm.yaml upper -o upper.h5");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 
