@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "core/error.h"
+#include "identification/formats/modal_file.h"
 
 namespace wishbone {
 
@@ -44,6 +45,10 @@ void check_replaceable(const fs::path& path, const std::vector<std::string>& inp
 }
 
 }  // namespace
+
+void check_modal_output(const std::string& path, const std::vector<std::string>& inputs) {
+  for (const auto& file : modal_data_files(path)) check_output(file.string(), inputs);
+}
 
 void check_output_folder(const std::string& path) {
   if (path.empty()) throw InputError({"", "the name of the output folder is empty", "", "name a folder"});

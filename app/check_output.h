@@ -11,6 +11,9 @@ namespace wishbone {
 ///   one of `inputs`, by whatever path; inputs that do not exist are passed over
 void check_output(const std::string& path, const std::vector<std::string>& inputs);
 
+/// The same for modal data, whose name may stand for several files.
+void check_modal_output(const std::string& path, const std::vector<std::string>& inputs);
+
 /// The same for a folder of files; it need not exist, but the one that it is in must.
 void check_output_folder(const std::string& path);
 

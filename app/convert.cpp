@@ -1,5 +1,3 @@
-#include <fmt/core.h>
-
 #include <memory>
 
 #include "app/check_output.h"
@@ -19,15 +17,12 @@ struct Options {
 void check_files(const Options& options) {
   std::vector<std::string> inputs;
   for (const auto& file : modal_data_files(options.input)) inputs.push_back(file.string());
-  for (const auto& file : modal_data_files(options.output)) check_output(file.string(), inputs);
+  check_modal_output(options.output, inputs);
 }
 
 ExitCode run(const Options& options) {
   check_files(options);
-  const ModalData data = read_modal_data(options.input);
-  write_modal_data(options.output, data);
-  fmt::print("{}: {}\n", options.output, brief(data));
-  print_lost(options.output, data);
+  write_and_tell(options.output, read_modal_data(options.input));
   return kDone;
 }
 

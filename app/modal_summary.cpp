@@ -70,7 +70,9 @@ std::string brief(const ModalData& data) {
   return text + ", " + describe_support(data.support);
 }
 
-void print_lost(const std::string& path, const ModalData& data) {
+void write_and_tell(const std::string& path, const ModalData& data) {
+  write_modal_data(path, data);
+  fmt::print("{}: {}\n", path, brief(data));
   if (const auto lost = lost_in_modal_data(path, data); !lost.empty())
     fmt::print("left out, for the format has no place for it: {}\n", fmt::join(lost, ", "));
 }

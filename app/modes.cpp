@@ -12,7 +12,6 @@
 #include "app/scene_warnings.h"
 #include "core/did_you_mean.h"
 #include "core/error.h"
-#include "identification/formats/modal_file.h"
 #include "identification/mode_set_of.h"
 #include "models/scene_loader.h"
 
@@ -43,17 +42,13 @@ int flexible_body(const Scene& scene, const Options& options) {
 
 ExitCode run(const Options& options) {
   const Scene scene = load_scene(options.scene, options.set);
-  for (const auto& file : modal_data_files(options.output))
-    check_output(file.string(), input_files(options.scene, scene));
+  check_modal_output(options.output, input_files(options.scene, scene));
   const int body = flexible_body(scene, options);
   ModeCompiler compiler(scene);
   const StiffenedModes modes = compiler.modes_of(body);
   print_warnings(compiler.identified, compiler.tables);
-  const ModalData data = modal_data_of(modes.set, options.body + " of " + options.scene);
-  write_modal_data(options.output, data);
-  fmt::print("{}\n{}: {} nodes, {} modes\n", text_of(compiler.tables.back()), options.output,
-             modes.set.node_count(), modes.set.mode_count());
-  print_lost(options.output, data);
+  fmt::print("{}\n", text_of(compiler.tables.back()));
+  write_and_tell(options.output, modal_data_of(modes.set, options.body + " of " + options.scene));
   return kDone;
 }
 

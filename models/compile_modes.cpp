@@ -78,8 +78,7 @@ std::string choice_text(const Scene::Flexible& flexible, const std::vector<int>&
 std::string split_warning(double omega) {
   return fmt::format(
       "the choice separates modes of equal frequency, {:.4g} Hz: which deflections it keeps is a matter of "
-      "rounding, and a "
-      "symmetric body is not symmetric any more; choose one more or one less",
+      "rounding, and a symmetric body is not symmetric any more; choose one more or one less",
       omega / (2 * std::numbers::pi));
 }
 
