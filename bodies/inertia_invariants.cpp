@@ -62,9 +62,9 @@ void InertiaInvariants::set_position(bool coupled, ModalBodyStateT<T>& state) co
   products.y.tail(m_) = state.z;
   products.symmetric.noalias() = symmetric_ * products.y;
   products.skew.noalias() = skew_ * products.y;
-  Eigen::Map<VectorXT<T>> b(state.interface_b.data(), s_.size());
-  b = s_.reshaped();
-  b.noalias() += interface_ * state.z;
+  Eigen::Map<VectorXT<T>> interface_b(state.interface_b.data(), s_.size());
+  interface_b = s_.reshaped();
+  interface_b.noalias() += interface_ * state.z;
   // B_ab = 1/2 y^T (N_ab + N_ba) y,  J = tr(B) 1 - B
   Matrix3T<T> B;
   for (int pair = 0; pair < 6; ++pair) {
