@@ -9,7 +9,7 @@
 #include "app/command.h"
 #include "app/modal_summary.h"
 #include "app/scene_inputs.h"
-#include "app/scene_warnings.h"
+#include "app/warnings.h"
 #include "core/did_you_mean.h"
 #include "core/error.h"
 #include "identification/mode_set_of.h"
@@ -46,7 +46,7 @@ ExitCode run(const Options& options) {
   const int body = flexible_body(scene, options);
   ModeCompiler compiler(scene);
   const StiffenedModes modes = compiler.modes_of(body);
-  print_warnings(compiler.identified, compiler.tables);
+  print_warnings(warnings_of(compiler.identified, compiler.tables));
   fmt::print("{}\n", text_of(compiler.tables.back()));
   write_and_tell(options.output, modal_data_of(modes.set, options.body + " of " + options.scene));
   return kDone;

@@ -9,7 +9,7 @@
 #include "app/body_modes_text.h"
 #include "app/closure_text.h"
 #include "app/command.h"
-#include "app/scene_warnings.h"
+#include "app/warnings.h"
 #include "app/text_table.h"
 #include "models/scene_loader.h"
 
@@ -136,7 +136,7 @@ void print_json(const Plan& plan) {
 ExitCode run(const Options& options) {
   const Scene scene = load_scene(options.scene, options.set);
   CompiledScene compiled = compile(scene);
-  print_warnings(compiled.identified, compiled.modes);
+  print_warnings(compiled.warnings);
   apply(options.analysis, compiled.transient);
   const Plan plan = make_plan(scene, compiled);
   options.json ? print_json(plan) : print_lines(scene, plan);

@@ -11,7 +11,7 @@
 #include "app/closure_text.h"
 #include "app/command.h"
 #include "app/scene_inputs.h"
-#include "app/scene_warnings.h"
+#include "app/warnings.h"
 #include "models/run_scene.h"
 #include "models/scene_loader.h"
 
@@ -85,8 +85,10 @@ const char* status_text(TransientSummary::Status status) {
 
 void print_lines(const Options& options, const RunResult& result) {
   const TransientSummary& s = result.summary;
-  fmt::print("{}: {} at t = {:.6g} s, form {}, integrator {}\n", options.scene, status_text(s.status),
-             s.t_end, to_string(s.integrator.form), to_string(s.integrator.method));
+  const std::size_t doubts = result.warnings.size();
+  fmt::print("{}: {}{} at t = {:.6g} s, form {}, integrator {}\n", options.scene, status_text(s.status),
+             doubts == 0 ? "" : fmt::format(" with {} warning{}", doubts, doubts == 1 ? "" : "s"), s.t_end,
+             to_string(s.integrator.form), to_string(s.integrator.method));
   for (const auto& [name, value] : s.statistics) fmt::print("  {}: {}\n", name, value);
   if (s.restarts > 0) fmt::print("  restarts at events: {}\n", s.restarts);
   for (const std::string& row : result.redundant_rows)
@@ -116,6 +118,8 @@ void print_json(const Options& options, const RunResult& result) {
   for (const NamedPassage& passage : result.singular_passages)
     out["singular_passages"].push_back({{"t", passage.t}, {"row", passage.row}});
   for (const auto& [name, count] : named_counts(result.work)) out["work"][name] = count;
+  out["warnings"] = nlohmann::ordered_json::array();
+  for (const Diagnostic& warning : result.warnings) out["warnings"].push_back(warning.warning());
   out["cpu_seconds"] = result.cpu_seconds;
   out["wall_seconds"] = result.wall_seconds;
   fmt::print("{}\n", out.dump(2));
@@ -129,7 +133,7 @@ ExitCode run(const Options& options) {
     if (body.is_flexible() && body.flexible->identification)
       check_output(identified_modes_path(options.output, body.name), inputs);
   CompiledScene compiled = compile(scene);
-  print_warnings(compiled.identified, compiled.modes);
+  print_warnings(compiled.warnings);
   apply(options.analysis, compiled.transient);
 
   std::signal(SIGINT, on_interrupt);
@@ -144,6 +148,7 @@ ExitCode run(const Options& options) {
     result = run_scene(scene, compiled,
                        {options.scene, options.output, options.set, keep_going, options.analysis.as_written});
   }
+  print_warnings(result.summary.warnings);
   options.json ? print_json(options, result) : print_lines(options, result);
   if (result.summary.status == TransientSummary::Status::complete) return kDone;
   fmt::print(stderr, "{}\n  What was computed is kept in {}.\n", result.summary.message, options.output);

@@ -4,12 +4,24 @@
 
 namespace wishbone {
 
-std::string Diagnostic::text() const {
-  std::string s = where.empty() ? std::string() : where + ": ";
-  s += "error: " + what;
-  if (!value.empty()) s += " (got " + value + ")";
-  if (!remedy.empty()) s += "\n  " + remedy;
+namespace {
+
+std::string told(const Diagnostic& d, const char* severity) {
+  std::string s = d.where.empty() ? std::string() : d.where + ": ";
+  s += severity + d.what;
+  if (!d.value.empty()) s += " (got " + d.value + ")";
+  if (!d.remedy.empty()) s += "\n  " + d.remedy;
   return s;
+}
+
+}  // namespace
+
+std::string Diagnostic::text() const {
+  return told(*this, "error: ");
+}
+
+std::string Diagnostic::warning() const {
+  return told(*this, "warning: ");
 }
 
 Error::Error(Diagnostic diagnostic)

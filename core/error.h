@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace wishbone {
 
@@ -14,7 +15,13 @@ struct Diagnostic {
 
   /// "where: error: what (got value)\n  remedy"
   std::string text() const;
+  /// "where: warning: what (got value)\n  remedy"
+  std::string warning() const;
 };
+
+/// What a user should doubt of a scene, a run or a result although it went through. Collected on the way: by a Scene while it
+/// is read, by a CompiledScene, by a TransientSummary; printed, and kept with the results in the attribute `warnings` of /meta.
+using Warnings = std::vector<Diagnostic>;
 
 /// Base of every error that wishbone reports to its user.
 class Error : public std::runtime_error {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "bodies/nodal_shapes.h"
@@ -38,6 +40,8 @@ class Compiler {
     compiled.modes = std::move(modes_.tables);
     std::tie(compiled.system, compiled.initial) = std::move(builder_).build();
     check_recoveries(scene_, builder_, compiled.system);
+    compiled.warnings = scene_.warnings;
+    std::ranges::move(warnings_of(compiled.identified, compiled.modes), std::back_inserter(compiled.warnings));
     compiled.observer = observer(compiled.system);
     compiled.transient = transient();
     return compiled;

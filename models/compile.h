@@ -19,6 +19,7 @@ struct CompiledScene {
   TransientOptions transient;
   std::vector<IdentifiedBody> identified;
   std::vector<BodyModes> modes;  ///< of flexible bodies
+  Warnings warnings;             ///< of the scene and of what was built from it
 };
 
 /// Builds the System of a scene: places the design pose, prepares the modes of flexible bodies, keeps what this scene needs and

@@ -96,6 +96,16 @@ BodyModes table_of(const Scene::Body& body, std::string choice, const FlexibleMo
 
 }  // namespace
 
+Warnings warnings_of(const std::vector<IdentifiedBody>& identified, const std::vector<BodyModes>& chosen) {
+  Warnings warnings;
+  for (const IdentifiedBody& body : identified)
+    for (const std::string& warning : body.identification.judgement.warnings)
+      warnings.push_back({body.body, warning, "", ""});
+  for (const BodyModes& body : chosen)
+    for (const std::string& warning : body.warnings) warnings.push_back({body.body, warning, "", ""});
+  return warnings;
+}
+
 InterfaceFrame interface_frame(const Scene::Frame& frame) {
   return {frame.name, frame.nodes, frame.weights};
 }

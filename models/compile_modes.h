@@ -5,6 +5,7 @@
 
 #include "bodies/interface_frame.h"
 #include "bodies/mode_set.h"
+#include "core/error.h"
 #include "identification/identify.h"
 #include "identification/mode_table.h"
 #include "models/scene.h"
@@ -30,6 +31,9 @@ struct StiffenedModes {
   ModeSet set;
   MatrixX stiffening;
 };
+
+/// What should be doubted of modes that were identified or chosen.
+Warnings warnings_of(const std::vector<IdentifiedBody>& identified, const std::vector<BodyModes>& chosen);
 
 InterfaceFrame interface_frame(const Scene::Frame& frame);
 /// Those of a body whose nodes keep their distances.

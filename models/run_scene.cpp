@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <filesystem>
+#include <iterator>
 
 #include "core/version.h"
 #include "identification/formats/identification_file.h"
@@ -37,6 +39,12 @@ std::vector<std::string> passage_lines(const RunResult& result) {
   return lines;
 }
 
+std::vector<std::string> warning_lines(const Warnings& warnings) {
+  std::vector<std::string> lines;
+  for (const Diagnostic& warning : warnings) lines.push_back(warning.warning());
+  return lines;
+}
+
 void record_facts(const Scene& scene, const RunRequest& request, const RunResult& result,
                   Recorder& recorder) {
   recorder.set_meta("title", scene.title);
@@ -57,6 +65,7 @@ void record_facts(const Scene& scene, const RunRequest& request, const RunResult
   for (const auto& [name, value] : s.statistics) recorder.set_meta("solver_" + name, value);
   recorder.set_meta("assembly_gaps", gap_lines(s.assembly));
   recorder.set_meta("singular_passages", passage_lines(result));
+  recorder.set_meta("warnings", warning_lines(result.warnings));
   for (const auto& [name, count] : named_counts(result.work))
     recorder.set_meta("work_" + name, static_cast<double>(count));
   recorder.set_run_meta("host", host_name());
@@ -119,6 +128,8 @@ RunResult run_scene(const Scene& scene, const CompiledScene& compiled, const Run
         {passage.t, passage.row < 0 ? "" : compiled.system.row_name(passage.row)});
   result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start).count();
   result.cpu_seconds = static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
+  result.warnings = compiled.warnings;
+  std::ranges::copy(result.summary.warnings, std::back_inserter(result.warnings));
   record_facts(scene, request, result, recorder);
   recorder.close(outcome(result.summary.status), result.summary.message);
   return result;

@@ -33,6 +33,7 @@ struct RunResult {
   WorkCounters work;
   std::vector<std::string> redundant_rows;
   std::vector<NamedPassage> singular_passages;
+  Warnings warnings;  ///< of the scene, of what was built from it, and of the run
   double wall_seconds = 0, cpu_seconds = 0;
 };
 

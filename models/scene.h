@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bodies/rayleigh_damping.h"
+#include "core/error.h"
 #include "core/function.h"
 #include "core/source.h"
 #include "core/spatial.h"
@@ -329,6 +330,7 @@ struct Scene {
     Source where;
   };
 
+  Warnings warnings;                    ///< what was read without error but may not be what was meant
   std::vector<std::string> data_files;  ///< that identifications and tables read
   std::string title;
   std::string text;  ///< the resolved document as YAML; loading it gives the same scene

@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "core/error.h"
 #include "solver/assembly.h"
 #include "solver/integrator.h"
 #include "solver/singular_watch.h"
@@ -25,6 +26,7 @@ struct TransientSummary {
   Statistics statistics;
   long restarts = 0;  ///< of the integrator at events, kinks of prescribed motions and changes of variables
   std::vector<SingularPassage> singular_passages;
+  Warnings warnings;  ///< what should be doubted of the results
 };
 
 /// Called at every output time with a consistent state.

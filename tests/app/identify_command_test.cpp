@@ -250,7 +250,7 @@ TEST_F(IdentifyCommand, PlanAndRunWarnOnStandardError) {
   for (const std::string& arguments : {"plan " + scene + " --set kept=12 --set stiffness=1e9", run}) {
     const Answer both = call(arguments);
     EXPECT_EQ(both.code, 0) << both.text;
-    EXPECT_THAT(both.text, HasSubstr("warning: frame: ")) << arguments;
+    EXPECT_THAT(both.text, HasSubstr("frame: warning: ")) << arguments;
     EXPECT_THAT(call(arguments + " 2>/dev/null #").text, Not(HasSubstr("warning"))) << arguments;
   }
   const ModalData kept = read_mode_file(path("run.frame_modes.h5"));
