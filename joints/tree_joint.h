@@ -41,7 +41,7 @@ inline TreeJoint reverse(const TreeJoint& joint) {
         if constexpr (requires { j.reversed(); }) {
           return j.reversed();
         } else {
-          return Reversed{j};
+          return Reversed<std::decay_t<decltype(j)>>{j};
         }
       },
       joint);
