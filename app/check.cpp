@@ -7,15 +7,15 @@
 
 #include "app/check_output.h"
 #include "app/command.h"
-#include "app/glob.h"
 #include "app/junit.h"
 #include "app/meta_text.h"
 #include "app/regression.h"
-#include "app/text_file.h"
 #include "app/text_table.h"
 #include "app/tolerances.h"
 #include "core/did_you_mean.h"
 #include "core/error.h"
+#include "core/glob.h"
+#include "core/partial_file.h"
 
 namespace wishbone {
 
@@ -77,7 +77,7 @@ ExitCode run(const Options& options) {
   const long failures =
       std::count_if(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return !v.passed; });
   if (options.junit)
-    write_text_file(*options.junit, junit_xml(options.fresh + " against " + options.base, verdicts));
+    write_file(*options.junit, junit_xml(options.fresh + " against " + options.base, verdicts));
   if (options.json)
     print_json(verdicts, options, failures);
   else

@@ -10,8 +10,8 @@
 #include "app/comparison.h"
 #include "app/meta_text.h"
 #include "app/report_html.h"
-#include "app/text_file.h"
 #include "app/text_table.h"
+#include "core/partial_file.h"
 
 namespace wishbone {
 
@@ -72,7 +72,7 @@ ExitCode run(Options options) {
 
   const Comparison comparison = compare(a, b, options.choice);
   if (options.html)
-    write_text_file(*options.html, report_html({a, options.title_a}, {b, options.title_b}, comparison));
+    write_file(*options.html, report_html({a, options.title_a}, {b, options.title_b}, comparison));
   if (options.json)
     print_json(comparison, options);
   else

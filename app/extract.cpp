@@ -6,9 +6,9 @@
 
 #include "app/check_output.h"
 #include "app/command.h"
-#include "app/glob.h"
 #include "app/option_value.h"
 #include "core/error.h"
+#include "core/glob.h"
 #include "solver/recorder.h"
 #include "solver/result_file.h"
 

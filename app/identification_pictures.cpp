@@ -7,7 +7,7 @@
 #include "app/svg/frequency_svg.h"
 #include "app/svg/mac_svg.h"
 #include "app/svg/mode_shape_svg.h"
-#include "app/text_file.h"
+#include "core/partial_file.h"
 
 namespace wishbone {
 namespace {
@@ -46,7 +46,7 @@ void write_pictures(const std::string& folder, const Identification& identificat
   std::error_code failed;  // that the folder is missing shows when the first picture is written
   std::filesystem::create_directories(folder, failed);
   for (const Picture& picture : identification_pictures(identification))
-    write_text_file((std::filesystem::path(folder) / picture.name).string(), picture.svg);
+    write_file((std::filesystem::path(folder) / picture.name).string(), picture.svg);
 }
 
 }  // namespace wishbone

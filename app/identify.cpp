@@ -11,7 +11,7 @@
 #include "app/identification_html.h"
 #include "app/identification_pictures.h"
 #include "app/identification_text.h"
-#include "app/text_file.h"
+#include "core/partial_file.h"
 #include "core/yaml.h"
 #include "identification/formats/identification_file.h"
 #include "identification/formats/matrix_market.h"
@@ -63,7 +63,7 @@ void check_outputs(const Options& options, const std::vector<std::string>& input
 void write_outputs(const Options& options, const Identification& result) {
   write_identification(options.output, result);
   if (options.also) write_modal_data(*options.also, result.modes);
-  if (options.html) write_text_file(*options.html, identification_html(result));
+  if (options.html) write_file(*options.html, identification_html(result));
   if (options.pictures) write_pictures(*options.pictures, result);
   if (!options.matrices) return;
   const auto symmetric = [](const MatrixX& A) -> SparseMatrix {

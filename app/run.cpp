@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -38,7 +39,7 @@ class Progress {
   Progress(double duration, bool wanted)
       : duration_(duration), wanted_(wanted), terminal_(isatty(STDERR_FILENO) != 0) {}
   ~Progress() {
-    if (percent_ >= 0) fmt::print(stderr, "\r\033[K");
+    if (percent_ >= 0) show("\r\033[K");
   }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -55,14 +56,19 @@ class Progress {
     const int percent = static_cast<int>(100 * t / duration_);
     if (percent == percent_) return;
     percent_ = percent;
-    fmt::print(stderr, "\r{:3d} %  t = {:.3f} s", percent, t);
+    show(fmt::format("\r{:3d} %  t = {:.3f} s", percent, t));
   }
 
   void log(double t) {
     const Clock::time_point now = Clock::now();
     if (now - last_line_ < std::chrono::seconds(1)) return;
     last_line_ = now;
-    fmt::print(stderr, "t = {:.3g} s of {:.6g} s\n", t, duration_);
+    show(fmt::format("t = {:.3g} s of {:.6g} s\n", t, duration_));
+  }
+
+  /// A run that nobody can watch goes on: progress is no result.
+  void show(const std::string& text) {
+    if (::write(STDERR_FILENO, text.data(), text.size()) < 0) wanted_ = false;
   }
 
   double duration_;
@@ -138,6 +144,7 @@ ExitCode run(const Options& options) {
 
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
+  if (std::signal(SIGHUP, SIG_IGN) != SIG_IGN) std::signal(SIGHUP, on_interrupt);  // unless by nohup
   RunResult result;
   {
     Progress progress(compiled.transient.duration, !options.json);
@@ -151,7 +158,9 @@ ExitCode run(const Options& options) {
   print_warnings(result.summary.warnings);
   options.json ? print_json(options, result) : print_lines(options, result);
   if (result.summary.status == TransientSummary::Status::complete) return kDone;
-  fmt::print(stderr, "{}\n  What was computed is kept in {}.\n", result.summary.message, options.output);
+  const std::string message =
+      fmt::format("{}\n  What was computed is kept in {}.\n", result.summary.message, options.output);
+  std::fputs(message.c_str(), stderr);
   return kNumericsFailed;
 }
 

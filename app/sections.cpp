@@ -9,9 +9,9 @@
 #include <set>
 #include <utility>
 
-#include "app/glob.h"
 #include "app/wide_signal.h"
 #include "core/error.h"
+#include "core/glob.h"
 
 namespace wishbone {
 

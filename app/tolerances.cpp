@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "app/glob.h"
 #include "core/error.h"
+#include "core/glob.h"
 
 namespace wishbone {
 

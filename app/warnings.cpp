@@ -1,11 +1,11 @@
 #include "app/warnings.h"
 
-#include <fmt/core.h>
+#include <cstdio>
 
 namespace wishbone {
 
 void print_warnings(const Warnings& warnings) {
-  for (const Diagnostic& warning : warnings) fmt::print(stderr, "{}\n", warning.warning());
+  for (const Diagnostic& warning : warnings) std::fputs((warning.warning() + "\n").c_str(), stderr);
 }
 
 }  // namespace wishbone

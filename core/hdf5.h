@@ -76,6 +76,8 @@ class Object {
   Handle handle_;
 };
 
+class Scale;
+
 /// An array of doubles.
 class Dataset : public Object {
  public:
@@ -96,17 +98,42 @@ class Dataset : public Object {
   /// `rows` holds a multiple of the row length.
   void append(std::span<const double> rows);
 
-  /// Makes this dataset a dimension scale (HDF5 dimension scales specification) of the given name.
-  void make_scale(const std::string& name);
-  /// Attaches `scale` to the first dimension.
-  void attach_scale(const Dataset& scale);
+  /// Says what the elements lie along: one dimension scale for each dimension.
+  void attach_scales(std::span<Scale* const> scales);
+  /// Where the elements of a table begin in the file [bytes].
+  std::size_t file_offset() const;
+};
+
+/// A dimension scale (HDF5 dimension scales specification): the places along one dimension of other datasets.
+class Scale {
+ public:
+  /// Makes `dataset` a scale of the given name.
+  Scale(Dataset dataset, const std::string& name);
+  Dataset& dataset() { return dataset_; }
+  /// Writes the list of everything that the scale is attached to; the library would write it anew for every entry.
+  void finish();
+
+ private:
+  friend class Dataset;
+  struct Use {
+    std::uint64_t dataset;  ///< object reference
+    std::uint32_t dimension;
+    std::uint32_t unused = 0;  ///< else the file would hold whatever the padding does
+  };
+
+  Dataset dataset_;
+  std::vector<Use> uses_;
 };
 
 /// How a growing dataset is stored.
 struct SeriesStorage {
-  std::size_t chunk_rows = 256;  ///< rows of one chunk, the unit of compression and of growth
-  unsigned deflate_level = 4;    ///< 0 (none) to 9; the bytes are shuffled first
+  std::size_t chunk_rows =
+      256;                     ///< rows of one chunk, the unit of compression and of growth; see chunk_rows()
+  unsigned deflate_level = 4;  ///< 0 (none) to 9; the bytes are shuffled first
 };
+
+/// Rows of a chunk that holds at most a megabyte: `most` halved as often as it takes.
+std::size_t chunk_rows(const Shape& row_shape, std::size_t most);
 
 class Group : public Object {
  public:
@@ -131,7 +158,13 @@ class Group : public Object {
   Dataset write(const std::string& path, const Eigen::Ref<const MatrixX>& matrix);
   /// A chunked, compressed dataset [0..unlimited, row_shape...] that grows by Dataset::append. Elements that
   /// were never written read as NaN.
+  /// Rows that are appended by whole chunks are written at once; none are kept in memory.
   Dataset create_series(const std::string& path, const Shape& row_shape, const SeriesStorage& storage = {});
+  /// A matrix [rows, columns] in one piece, for which the file has room but nothing is written: elements read as zero.
+  Dataset create_table(const std::string& path, std::size_t rows, std::size_t columns);
+  /// A dataset [rows, row_shape...] that shows columns of a table from `first_column` on (a virtual dataset).
+  Dataset create_view(const std::string& path, const Shape& row_shape, const Dataset& table,
+                      std::size_t first_column);
   /// Reads a dataset of at most two dimensions; a vector comes back as one column, a scalar as 1x1.
   MatrixX read_matrix(const std::string& path) const;
 };
@@ -145,12 +178,7 @@ class File : public Group {
   /// Makes a new file, replacing one of that name.
   static File create(const std::string& path);
 
-  /// Hands everything written so far to the operating system: from here on it survives the death of the
-  /// process. Between two flushes no metadata reaches the file (the metadata cache never evicts), so that a
-  /// file whose writer is killed shows the state of the last flush, provided chunks were written whole.
-  void flush();
-  /// Flushes, asks the operating system to put it on the disk, and closes. No object of the file may be in
-  /// use after.
+  /// Hands everything to the operating system and closes. No object of the file may be in use after.
   void close();
 
  private:

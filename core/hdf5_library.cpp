@@ -1,13 +1,24 @@
 #include "core/hdf5_library.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <functional>
 #include <numeric>
+#include <string_view>
 
+#include "core/descriptor.h"
 #include "core/error.h"
 
 namespace wishbone::hdf5 {
 namespace {
+
+/// The operating system's error number in a message such as "file write failed: time = Tue ..., errno = 28, error message = ...";
+/// 0 when the fault is none of its.
+int system_error_in(const std::string& message) {
+  constexpr std::string_view kMark = "errno = ";
+  const std::size_t at = message.find(kMark);
+  return at == std::string::npos ? 0 : std::atoi(message.c_str() + at + kMark.size());
+}
 
 /// The innermost message of the current error stack: the cause, not the chain of callers.
 std::string library_message() {
@@ -19,7 +30,8 @@ std::string library_message() {
         return 0;
       },
       &message);
-  return message;
+  const int error_number = system_error_in(message);
+  return error_number == 0 ? message : system_reason(error_number);
 }
 
 }  // namespace
@@ -39,6 +51,28 @@ void fail_writing(const std::string& where, const std::string& what) {
 
 std::string where_is(const Object& object) {
   return object.file_path() + ":" + object.path();
+}
+
+std::string where_in(const Group& group, const std::string& path) {
+  const std::string parent = group.path();
+  return group.file_path() + ":" + (path.starts_with('/') ? "" : parent == "/" ? "/" : parent + "/") + path;
+}
+
+Handle creation_properties(hid_t property_class) {
+  Handle properties(H5Pcreate(property_class), H5Pclose);
+  H5Pset_obj_track_times(properties.get(), false);
+  return properties;
+}
+
+void make_groups_above(const Group& group, const std::string& path) {
+  for (std::size_t end = path.find('/', 1); end != std::string::npos; end = path.find('/', end + 1)) {
+    const std::string above = path.substr(0, end);
+    if (H5Lexists(group.id(), above.c_str(), H5P_DEFAULT) > 0) continue;
+    const Handle creation = creation_properties(H5P_GROUP_CREATE);
+    const Handle made(H5Gcreate2(group.id(), above.c_str(), H5P_DEFAULT, creation.get(), H5P_DEFAULT),
+                      H5Gclose);
+    if (made.get() < 0) fail_writing(where_in(group, above), "cannot make the group");
+  }
 }
 
 Handle text_type() {

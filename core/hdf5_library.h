@@ -34,6 +34,14 @@ class Silence {
 /// "run.h5:/bodies/arm"
 std::string where_is(const Object& object);
 
+/// The same of an object to be made at `path` in a group.
+std::string where_in(const Group& group, const std::string& path);
+
+/// Object headers without time stamps: equal input, equal bytes.
+Handle creation_properties(hid_t property_class);
+/// Makes the groups above an object to be made, without time stamps too: those that the library makes on the way have them.
+void make_groups_above(const Group& group, const std::string& path);
+
 /// A text type as h5py and MATLAB like it best: UTF-8 of variable length.
 Handle text_type();
 Handle simple_space(const Shape& shape);

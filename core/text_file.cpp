@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "core/input_file.h"
 
 namespace wishbone {
 namespace {
@@ -17,13 +18,11 @@ std::string read_bytes(const std::filesystem::path& path, std::size_t max_bytes,
     throw InputError({asked_from.text(), what, name, remedy});
   };
   std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) {
-    refuse("there is no such file",
-           "check the name; an included file is looked for relative to the including one");
+  if (const auto fault = input_fault(path)) {
+    refuse(fault->what, std::filesystem::exists(path, error)
+                            ? fault->remedy
+                            : "check the name; an included file is looked for relative to the including one");
   }
-  if (std::filesystem::is_directory(status)) refuse("this is a directory, not a file", "name the file in it");
-
   std::ifstream in(path, std::ios::binary);
   if (!in) refuse("the file cannot be opened", "check its permissions");
   std::string bytes(max_bytes + 1, '\0');

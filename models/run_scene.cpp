@@ -5,12 +5,15 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <ctime>
 #include <filesystem>
 #include <iterator>
+#include <utility>
 
 #include "core/version.h"
 #include "identification/formats/identification_file.h"
+#include "solver/recorder.h"
 
 namespace wishbone {
 namespace {
@@ -95,6 +98,11 @@ void check_start(const CompiledScene& compiled) {
   assemble(compiled.system, state, ws);
 }
 
+/// Every interval and both ends, and some for the two sides of jumps.
+double expected_rows(const TransientOptions& options) {
+  return std::ceil(options.duration / options.interval) + 64;
+}
+
 }  // namespace
 
 std::string identified_modes_path(const std::string& output_path, const std::string& body) {
@@ -105,13 +113,16 @@ std::string identified_modes_path(const std::string& output_path, const std::str
 RunResult run_scene(const Scene& scene, const CompiledScene& compiled, const RunRequest& request) {
   const auto wall_start = std::chrono::steady_clock::now();
   const std::clock_t cpu_start = std::clock();
+  OutputLock output(request.output_path);
   check_start(compiled);
   for (const IdentifiedBody& body : compiled.identified)
     write_identification(identified_modes_path(request.output_path, body.body), body.identification);
   RunResult result;
   Workspace ws(compiled.system);
   Observer observer(compiled.system, compiled.observer);
-  Recorder recorder(request.output_path, observer.signals());
+  const std::vector<std::string> unmatched = observer.keep(scene.output.record);
+  Recorder recorder(std::move(output), observer.signals(),
+                    {.expected_rows = expected_rows(compiled.transient)});
 
   result.summary = run_transient(
       compiled.system, compiled.initial, compiled.transient, ws,
@@ -120,6 +131,10 @@ RunResult run_scene(const Scene& scene, const CompiledScene& compiled, const Run
       },
       request.keep_going);
 
+  for (const std::string& pattern : unmatched)
+    result.summary.warnings.push_back({scene.output.where.text(),
+                                       "no signal matches this pattern of 'record'", pattern,
+                                       "see the paths in docs/results.md, or remove it"});
   result.work = ws.work;
   for (const int row : result.summary.assembly.redundant_rows)
     result.redundant_rows.push_back(compiled.system.row_name(row));

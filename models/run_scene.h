@@ -37,10 +37,11 @@ struct RunResult {
   double wall_seconds = 0, cpu_seconds = 0;
 };
 
-/// Keeps the modes that were identified for its bodies, runs the compiled scene and streams every signal to the results file. A run that fails keeps what it computed; the file
-/// says so in its status.
+/// Keeps the modes that were identified for its bodies, runs the compiled scene and records the signals that it chooses (all by
+/// default) in the results file, which no other run writes meanwhile. A run that fails keeps what it computed; the file says so in
+/// its status.
 /// @throws InputError when form and integrator do not fit the scene or it cannot be assembled: then no file is made and one
-///   of that name stays as it is; NumericsError when the file cannot be written
+///   of that name stays as it is, likewise when another run writes to it or no signal is chosen; NumericsError when the file cannot be written
 RunResult run_scene(const Scene& scene, const CompiledScene& compiled, const RunRequest& request);
 
 }  // namespace wishbone

@@ -327,6 +327,7 @@ struct Scene {
     std::vector<FlexibleOutput> flexible;
     std::vector<RecoveryOutput> recoveries;
     std::vector<PointOutput> points;
+    std::vector<std::string> record;  ///< patterns of the paths of signals that are recorded; none: all
     Source where;
   };
 

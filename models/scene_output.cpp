@@ -119,10 +119,20 @@ Scene::RecoveryOutput read_recovery(const std::string& name, const Value& value,
   return output;
 }
 
+void read_record(const Value& section, Scene::Output& output) {
+  for (const Value& pattern : section.list()) {
+    output.record.push_back(pattern.text());
+    if (!output.record.back().starts_with('/') && !output.record.back().starts_with('*'))
+      pattern.refuse("this matches no path of a signal", "begin with a slash, as in /bodies/chassis/*");
+  }
+  if (output.record.empty())
+    section.refuse("there are no patterns in the list", "remove the key to record all signals");
+}
+
 }  // namespace
 
 void read_output(const Value& section, Scene& scene) {
-  const Mapping keys(section, {"interval", "nodes", "flexible", "recovery", "points"});
+  const Mapping keys(section, {"interval", "nodes", "flexible", "recovery", "points", "record"});
   Scene::Output& output = scene.output;
   output.where = section.where();
   if (const auto interval = keys.optional("interval")) output.interval = read_interval(*interval, scene);
@@ -136,6 +146,7 @@ void read_output(const Value& section, Scene& scene) {
       const Mapping point(value, {"body", "at", "node", "frame"});
       output.points.push_back({name, read_point(scene, point, value)});
     }
+  if (const auto record = keys.optional("record")) read_record(*record, output);
 }
 
 }  // namespace wishbone::scene_sections

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "core/error.h"
+#include "core/glob.h"
 #include "solver/forward_dynamics.h"
 #include "solver/observation.h"
 #include "solver/reactions.h"
@@ -23,9 +26,35 @@ Observer::Observer(const System& system, const ObserverOptions& options) : syste
   if (options.chassis >= 0) add_vehicle(options);
   add_energy();
   add_constraints(system);
+  size_row();
+}
+
+void Observer::size_row() {
   std::size_t size = 0;
   for (const Signal& signal : signals_) size += signal.size();
   row_.assign(size, 0.0);
+}
+
+std::vector<std::string> Observer::keep(const std::vector<std::string>& patterns) {
+  if (patterns.empty()) return {};
+  std::vector<std::string> unmatched;
+  for (const std::string& pattern : patterns)
+    if (std::ranges::none_of(signals_, [&](const Signal& s) { return matches(pattern, s.path); }))
+      unmatched.push_back(pattern);
+  if (unmatched.size() == patterns.size())
+    throw InputError(
+        {"output.record", "no signal matches", unmatched.front(),
+         "the paths of signals are listed in docs/results.md, and by `wishbone info` of a results file"});
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < signals_.size(); ++i) {
+    if (!matches_any(patterns, signals_[i].path)) continue;
+    std::swap(signals_[kept], signals_[i]);
+    std::swap(evaluators_[kept++], evaluators_[i]);
+  }
+  signals_.resize(kept);
+  evaluators_.resize(kept);
+  size_row();
+  return unmatched;
 }
 
 std::span<const double> Observer::sample(const State& state, const Work& work, Workspace& ws) {

@@ -9,7 +9,7 @@
 #include "solver/energy.h"
 #include "solver/flexible_signal.h"
 #include "solver/point_motion.h"
-#include "solver/recorder.h"
+#include "solver/signal.h"
 #include "solver/workspace.h"
 
 namespace wishbone {
@@ -55,6 +55,9 @@ class Observer {
   Observer(const System& system, const ObserverOptions& options);
 
   const std::vector<Signal>& signals() const { return signals_; }
+  /// Leaves out the signals whose path no pattern matches (core/glob.h); no pattern: keeps all. Returns the patterns that match
+  /// nothing. @throws InputError when no signal is left
+  std::vector<std::string> keep(const std::vector<std::string>& patterns);
 
   /// The row of one state, valid until the next call. Solves the equations of motion at the state for the reactions.
   std::span<const double> sample(const State& state, const Work& work, Workspace& ws);
@@ -72,6 +75,7 @@ class Observer {
  private:
   void add(std::string path, std::vector<int> shape, std::string units, std::string frame, std::string about,
            Evaluate evaluate);
+  void size_row();
   void add_bodies(const System& system);
   void add_flexible(const System& system, const ObserverOptions& options);
   // of System::flexible[k]

@@ -3,8 +3,8 @@
 #include <span>
 
 #include "core/hdf5.h"
+#include "core/partial_file.h"
 #include "identification/formats/mode_file.h"
-#include "identification/formats/partial_file.h"
 
 namespace wishbone {
 namespace {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/input_file.h"
 
 namespace wishbone {
 namespace {
@@ -28,10 +29,7 @@ std::string_view without_plus(std::string_view token) {
 
 LineReader::LineReader(const std::filesystem::path& path) : path_(path.string()), buffer_(kLongestLine + 2) {
   std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) throw InputError({path_, "no such file", "", "check the path"});
-  if (!std::filesystem::is_regular_file(status))
-    throw InputError({path_, "this is a folder or a device, not a file", "", "name a file"});
+  if (const auto fault = input_fault(path)) throw InputError({path_, fault->what, "", fault->remedy});
   size_ = std::filesystem::file_size(path, error);
   stream_.open(path, std::ios::binary);
   if (error || !stream_) throw InputError({path_, "cannot open the file", "", "check its permissions"});

@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "core/partial_file.h"
 #include "core/version.h"
 #include "identification/formats/mode_file.h"
 #include "identification/formats/mode_file_layout.h"
-#include "identification/formats/partial_file.h"
 
 namespace wishbone {
 namespace {

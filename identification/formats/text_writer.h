@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <utility>
 
-#include "identification/formats/partial_file.h"
+#include "core/partial_file.h"
 
 namespace wishbone {
 
@@ -16,7 +15,7 @@ namespace wishbone {
 class TextWriter {
  public:
   /// Throws NumericsError when no file can be made there.
-  explicit TextWriter(const std::filesystem::path& path);
+  explicit TextWriter(const std::filesystem::path& path) : file_(path.string()) {}
 
   template <class... Values>
   void print(fmt::format_string<Values...> format, Values&&... values) {
@@ -33,7 +32,6 @@ class TextWriter {
   void flush();
 
   PartialFile file_;
-  std::ofstream stream_;
   fmt::memory_buffer buffer_;
 };
 

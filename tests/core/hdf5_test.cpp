@@ -121,7 +121,7 @@ TEST(Hdf5, OtherFilesAreRefused) {
   std::ofstream(folder / "scene.yaml") << "scene: 1\n";
   EXPECT_THAT(message_of<InputError>([&] { File::open(folder / "scene.yaml"); }),
               AllOf(HasSubstr("scene.yaml"), HasSubstr("not an HDF5 file")));
-  EXPECT_THAT(message_of<InputError>([&] { File::open(folder / ""); }), HasSubstr("folder"));
+  EXPECT_THAT(message_of<InputError>([&] { File::open(folder / ""); }), HasSubstr("directory"));
 }
 
 TEST(Hdf5, FilesCutShortAreRefused) {
@@ -157,7 +157,7 @@ TEST(Hdf5, MissingDatasetsAreNamedWithWhatExists) {
 
 TEST(Hdf5, FailuresToWriteCarryTheCause) {
   EXPECT_THAT(message_of<NumericsError>([] { File::create("/nowhere/a.h5"); }),
-              AllOf(HasSubstr("/nowhere/a.h5"), HasSubstr("No such file or directory")));
+              AllOf(HasSubstr("/nowhere/a.h5"), HasSubstr("no such file or directory")));
   const TemporaryFolder folder;
   File file = File::create(folder / "a.h5");
   file.write("/x", MatrixX::Zero(1, 1));

@@ -7,8 +7,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -139,37 +142,36 @@ TEST(Recorder, LeavingTheScopeCountsAsInterruption) {
   EXPECT_EQ(file.time().size(), 1);
 }
 
-/// A process of its own that records row after row without end, and tells through a pipe the rows it has
-/// committed.
+/// A process of its own that records row after row without end, and tells through a pipe how many `append` has taken.
 class Writer {
  public:
-  Writer(const std::string& path, int chunk_rows) {
+  Writer(const std::string& path, const RecorderOptions& options) {
     if (pipe(channel_) != 0) throw std::runtime_error("pipe");
     process_ = fork();
     if (process_ != 0) return;
-    Recorder recorder(path, three_signals(), {.chunk_rows = chunk_rows});
+    Recorder recorder(path, three_signals(), options);
     for (int n = 0;; ++n) {
       recorder.append(0.005 * n, row_of(n));
-      if (recorder.rows() % chunk_rows != 0) continue;
       const long rows = recorder.rows();
       if (::write(channel_[1], &rows, sizeof rows) != sizeof rows) _exit(1);
-      usleep(300);  // a solver would be computing now
     }
   }
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
 
-  /// Waits for the first commit and `delay` more, kills the process; returns the rows of the last commit
-  /// told.
-  long kill_after(useconds_t delay) {
+  pid_t process() const { return process_; }
+  /// The next number of rows that the writer tells.
+  long told() {
     long rows = 0;
-    long last = 0;
-    if (::read(channel_[0], &last, sizeof last) != sizeof last) return -1;
-    usleep(delay);
+    return ::read(channel_[0], &rows, sizeof rows) == sizeof rows ? rows : -1;
+  }
+  /// Kills the writer; the last number of rows that it told.
+  long end() {
     kill(process_, SIGKILL);
     waitpid(process_, nullptr, 0);
     ::close(channel_[1]);
-    while (::read(channel_[0], &rows, sizeof rows) == sizeof rows) last = rows;
+    long last = 0;
+    for (long rows = told(); rows > 0; rows = told()) last = rows;
     ::close(channel_[0]);
     return last;
   }
@@ -179,14 +181,27 @@ class Writer {
   pid_t process_;
 };
 
-TEST(Recorder, EverythingCommittedSurvivesSigkillAtAnyMoment) {
+/// h5dump knows nothing of the Recorder.
+bool opens_in_h5dump(const std::string& path) {
+  return std::system(("h5dump -d /meta/rows -d /time -c 1 " + path + " > /dev/null 2>&1").c_str()) == 0;
+}
+
+TEST(Recorder, KillAtAnyMomentLeavesNoFileOrOneWithEveryRowCommitted) {
   const TemporaryFolder folder;
   const char* wanted = std::getenv("WISHBONE_TEST_KILLS");
   const int kills = wanted ? std::atoi(wanted) : 20;
   for (int i = 0; i < kills; ++i) {
     const std::string path = folder / ("killed" + std::to_string(i) + ".h5");
-    const long told = Writer(path, 16).kill_after(static_cast<useconds_t>(7919 * i % 30'000));
+    // from before the file is made to after it has been copied to one with more room several times
+    Writer writer(path, {.expected_rows = 4, .commit_seconds = 0});
+    usleep(static_cast<useconds_t>(7919 * i % 60'000));
+    const long told = writer.end();
     ASSERT_FALSE(std::filesystem::exists(path));
+    if (!std::filesystem::exists(path + ".partial")) {
+      EXPECT_EQ(told, 0);
+      continue;
+    }
+    EXPECT_TRUE(opens_in_h5dump(path + ".partial"));
     const ResultFile file(path + ".partial");
     EXPECT_EQ(file.status(), "running");
     EXPECT_GE(file.time().size(), told);
@@ -194,31 +209,109 @@ TEST(Recorder, EverythingCommittedSurvivesSigkillAtAnyMoment) {
   }
 }
 
-TEST(Recorder, FullDiskIsReportedAndKeepsTheProgramAlive) {
+TEST(Recorder, KillLosesNoRowOlderThanTheTimeBetweenCommits) {
   const TemporaryFolder folder;
+  const std::string path = folder / "a.h5";
+  Writer writer(path, {.commit_seconds = 0.05});
+  long before = 0;
+  const auto start = std::chrono::steady_clock::now();
+  while (std::chrono::steady_clock::now() - start < std::chrono::milliseconds(300)) before = writer.told();
+  const auto asked = std::chrono::steady_clock::now();
+  while (std::chrono::steady_clock::now() - asked < std::chrono::milliseconds(500)) writer.told();
+  writer.end();
+  const ResultFile file(path + ".partial");
+  EXPECT_GE(file.time().size(), before);
+  expect_rows(file);
+}
+
+TEST(Recorder, SecondWriterOfOneFileIsRefusedAndTheFirstGoesOn) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "a.h5";
+  Writer writer(path, {});
+  ASSERT_GE(writer.told(), 1);
+  try {
+    Recorder second(path, three_signals());
+    ADD_FAILURE() << "two writers";
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), HasSubstr(std::to_string(writer.process())));
+  }
+  EXPECT_GT(writer.told(), 0);
+  writer.end();
+  EXPECT_TRUE(std::filesystem::exists(path + ".lock"));
+  record(path, 3);  // the lock of the dead is nobody's
+  EXPECT_FALSE(std::filesystem::exists(path + ".lock"));
+  EXPECT_EQ(ResultFile(path).time().size(), 3);
+}
+
+TEST(Recorder, LinkWithTheNameOfThePartialFileIsNotFollowed) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "precious") << "precious";
+  for (const char* ending : {".partial", ".lock"}) {
+    const std::string link = folder / ("a.h5" + std::string(ending));
+    std::filesystem::create_symlink(folder / "precious", link);
+    try {
+      record(folder / "a.h5", 3);
+    } catch (const NumericsError&) {
+      EXPECT_STREQ(ending, ".lock");
+    }
+    EXPECT_EQ(bytes(folder / "precious"), "precious");
+    std::filesystem::remove(link);
+  }
+}
+
+/// Records without end in a process that may write so many bytes to a file; its last words.
+std::string last_words_within(rlim_t bytes, const std::string& path) {
+  int channel[2];
+  if (pipe(channel) != 0) throw std::runtime_error("pipe");
   const pid_t child = fork();
   if (child == 0) {
     signal(SIGXFSZ, SIG_IGN);
-    const rlimit limit{100'000, 100'000};
+    const rlimit limit{bytes, bytes};
     setrlimit(RLIMIT_FSIZE, &limit);
-    int code = 1;
     try {
-      Recorder recorder(folder / "a.h5", three_signals(), {.chunk_rows = 64, .deflate_level = 0});
+      Recorder recorder(path, three_signals(), {.expected_rows = 64, .commit_seconds = 0});
       for (int n = 0; n < 100'000; ++n) recorder.append(0.005 * n, row_of(n));
     } catch (const NumericsError& e) {
-      code = std::string(e.what()).find("File too large") != std::string::npos ? 42 : 2;
+      if (::write(channel[1], e.what(), std::strlen(e.what())) < 0) _exit(1);
     }
-    _exit(code);
+    _exit(0);
   }
-  int status = 0;
-  waitpid(child, &status, 0);
-  ASSERT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 42);
+  ::close(channel[1]);
+  std::string words(4096, '\0');
+  words.resize(
+      static_cast<std::size_t>(std::max<ssize_t>(0, ::read(channel[0], words.data(), words.size()))));
+  ::close(channel[0]);
+  waitpid(child, nullptr, 0);
+  return words;
+}
+
+TEST(Recorder, FullDiskIsReportedAndKeepsWhatWasSafe) {
+  const TemporaryFolder folder;
+  int kept = 0;
+  for (rlim_t bytes = 1000; bytes < 200'000; bytes = bytes * 13 / 8) {
+    const std::string path = folder / ("full" + std::to_string(bytes) + ".h5");
+    EXPECT_THAT(last_words_within(bytes, path), HasSubstr("file too large")) << bytes;
+    EXPECT_FALSE(std::filesystem::exists(path));
+    if (!std::filesystem::exists(path + ".partial")) continue;
+    EXPECT_TRUE(opens_in_h5dump(path + ".partial"));
+    const ResultFile file(path + ".partial");
+    EXPECT_GE(file.time().size(), 64);
+    expect_rows(file);
+    ++kept;
+  }
+  EXPECT_GE(kept, 3);
+}
+
+TEST(Recorder, FileDoesNotDependOnWhenItsRowsWereCommitted) {
+  const TemporaryFolder folder;
+  record(folder / "a.h5", 1000, {.expected_rows = 1000, .commit_seconds = 100});
+  record(folder / "b.h5", 1000, {.expected_rows = 3, .commit_seconds = 0});
+  EXPECT_EQ(bytes(folder / "a.h5"), bytes(folder / "b.h5"));
 }
 
 TEST(Recorder, AppendAllocatesNothingBetweenCommits) {
   const TemporaryFolder folder;
-  Recorder recorder(folder / "a.h5", three_signals(), {.chunk_rows = 128});
+  Recorder recorder(folder / "a.h5", three_signals(), {.expected_rows = 200, .commit_seconds = 100});
   const std::vector<double> row = row_of(1);
   const long before = allocation_count();
   for (int n = 0; n < 127; ++n) recorder.append(0.005 * n, row);

@@ -20,11 +20,7 @@ double finite(double x) {
 
 }  // namespace
 
-UffOutput::UffOutput(const std::filesystem::path& path) : path_(path), file_(path, std::ios::binary) {
-  if (!file_)
-    throw NumericsError(
-        {path.string(), "the file cannot be created", "", "check the folder and its permissions"});
-}
+UffOutput::UffOutput(const std::filesystem::path& path) : file_(path.string()) {}
 
 void UffOutput::begin_dataset(std::string_view number) {
   line("    -1");
@@ -44,7 +40,8 @@ void UffOutput::text(std::string_view text) {
 }
 
 void UffOutput::line(std::string_view formatted) {
-  file_ << formatted << '\n';
+  file_.write(formatted);
+  file_.write("\n");
 }
 
 void UffOutput::integers(std::span<const int> numbers, int per_line, int width) {
@@ -68,14 +65,11 @@ void UffOutput::reals(std::span<const double> numbers) {
 }
 
 void UffOutput::bytes(const char* begin, std::size_t count) {
-  file_.write(begin, static_cast<std::streamsize>(count));
+  file_.write({begin, count});
 }
 
 void UffOutput::close() {
-  file_.close();
-  if (!file_)
-    throw NumericsError({path_.string(), "the file could not be written to its end", "",
-                         "check the space on the disk; what is there is incomplete"});
+  file_.finish();
 }
 
 std::string e13(double x) {

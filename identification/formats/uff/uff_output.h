@@ -1,16 +1,16 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <span>
 #include <string>
 #include <string_view>
 
+#include "core/partial_file.h"
 #include "identification/formats/uff/uff_file.h"
 
 namespace wishbone {
 
-/// Writes the records of a Universal File.
+/// Writes the records of a Universal File, which has its name once it is whole.
 class UffOutput {
  public:
   /// Throws NumericsError when the file cannot be created.
@@ -27,12 +27,11 @@ class UffOutput {
   /// Rows of six in E13.5.
   void reals(std::span<const double> numbers);
   void bytes(const char* begin, std::size_t count);
-  /// Throws NumericsError unless everything reached the file.
+  /// Gives the file its name. Throws NumericsError unless everything reached the disk.
   void close();
 
  private:
-  std::filesystem::path path_;
-  std::ofstream file_;
+  PartialFile file_;
 };
 
 /// E13.5, E20.12; D25.16 as dataset 2411 has it.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/input_file.h"
 #include "identification/formats/uff/uff_datasets.h"
 #include "identification/formats/uff/uff_text.h"
 
@@ -66,15 +67,9 @@ void pass_over_text(const UffInput& in, bool is_first, UffFile& file) {
 }  // namespace
 
 UffFile read_uff(const std::filesystem::path& path) {
-  const auto refuse = [&](std::string what, std::string remedy) {
-    throw InputError({path.string(), std::move(what), "", std::move(remedy)});
-  };
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) refuse("there is no such file", "check the name");
-  if (!std::filesystem::is_regular_file(status)) refuse("this is not a file", "name a Universal File");
+  if (const auto fault = input_fault(path)) throw InputError({path.string(), fault->what, "", fault->remedy});
   std::ifstream file(path, std::ios::binary);
-  if (!file) refuse("the file cannot be opened", "check its permissions");
+  if (!file) throw InputError({path.string(), "the file cannot be opened", "", "check its permissions"});
   return read_uff(file, path.string());
 }
 

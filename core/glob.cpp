@@ -1,4 +1,4 @@
-#include "app/glob.h"
+#include "core/glob.h"
 
 #include <fnmatch.h>
 
