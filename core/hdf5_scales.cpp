@@ -23,7 +23,8 @@ std::uint64_t reference_to(const Object& object) {
 void write_attribute(const Object& object, const char* name, hid_t type, std::size_t length,
                      const void* elements) {
   const Handle space = simple_space({length});
-  const Handle attribute(H5Acreate2(object.id(), name, type, space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  const Handle attribute(H5Acreate2(object.id(), name, type, space.get(), H5P_DEFAULT, H5P_DEFAULT),
+                         H5Aclose);
   if (attribute.get() < 0 || H5Awrite(attribute.get(), type, elements) < 0)
     fail_writing(where_is(object) + "@" + name, "cannot write the attribute");
 }

@@ -47,7 +47,8 @@ RowTable::RowTable(std::string path, const std::vector<Signal>& signals, std::si
                    double commit_seconds)
     : name_(std::move(path) + ".partial"),
       signals_(signals),
-      commit_interval_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(commit_seconds))) {
+      commit_interval_(
+          std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(commit_seconds))) {
   for (const Signal& signal : signals_) columns_ += static_cast<std::size_t>(signal.size());
   waiting_.reserve(std::max(kMostWaiting, columns_));
   make_room(room);

@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "core/error.h"
 #include "models/ran_scene.h"
 
 namespace wishbone {
@@ -251,6 +254,42 @@ TEST(WorkCounters, CountWhatASceneHas) {
   EXPECT_GT(partitioned.work().tangents, 0);
   EXPECT_EQ(double(partitioned.work().tangents), partitioned.meta("solver_jacobian_evaluations"));
   EXPECT_GT(partitioned.work().partitions, 0);
+}
+
+const char* const kTwoFallingBodies = R"(
+wishbone: 1
+bodies:
+  stone: {mass: 1, inertia: [1, 1, 1]}
+  feather: {mass: 0.01, inertia: [1, 1, 1], position: [1, 0, 0]}
+analysis: {duration: 0.1 s}
+)";
+
+TEST(Record, ChoosesSignalsAndLeavesTheirValuesAsTheyAre) {
+  const RanScene all(kTwoFallingBodies);
+  const RanScene run(std::string(kTwoFallingBodies) + "output: {record: [/bodies/stone/*, '*/kinetic']}\n");
+  std::vector<std::string> paths;
+  for (const Signal& signal : run.file().signals()) {
+    paths.push_back(signal.path);
+    EXPECT_EQ(run.read(signal.path), all.read(signal.path));
+  }
+  EXPECT_EQ(paths, (std::vector<std::string>{"/bodies/stone/angular_velocity", "/bodies/stone/orientation",
+                                             "/bodies/stone/position", "/bodies/stone/velocity",
+                                             "/energy/kinetic"}));
+}
+
+TEST(Record, PatternThatMatchesNothingIsToldAndNoSignalAtAllIsRefused) {
+  const TextFiles files;
+  const auto run = [&](const std::string& patterns) {
+    const Scene scene = load_scene(
+        files.write("s.yaml", std::string(kTwoFallingBodies) + "output: {record: " + patterns + "}\n"));
+    return run_scene(scene, compile(scene), {"s.yaml", files / "out.h5", {}, {}});
+  };
+  const RunResult result = run("[/bodies/stone/*, /bodies/stnoe/*]");
+  ASSERT_EQ(result.warnings.size(), 1u);
+  EXPECT_EQ(result.warnings[0].value, "/bodies/stnoe/*");
+  EXPECT_THROW(run("[/bodies/stnoe/*]"), InputError);
+  EXPECT_THROW(run("[bodies/stone/*]"), InputError);
+  EXPECT_THROW(run("[]"), InputError);
 }
 
 }  // namespace

@@ -108,6 +108,61 @@ TEST(Recorder, OtherProgramsSeeTheTimeScaleAndTheCompression) {
   EXPECT_THAT(dump, HasSubstr("( 300, 3 ) / ( H5S_UNLIMITED, 3 )"));
 }
 
+/// Whether the shell finds a program or a module of Python's.
+bool there_is(const std::string& command) {
+  return std::system((command + " > /dev/null 2>&1").c_str()) == 0;
+}
+
+// The readers are programs of others.
+TEST(Recorder, NetcdfToolsFindDimensionsAndUnits) {
+  if (!there_is("which ncdump")) GTEST_SKIP() << "ncdump (netcdf-bin) is not installed";
+  const TemporaryFolder folder;
+  record(folder / "a.h5", 300);
+  ASSERT_EQ(std::system(("ncdump -h " + (folder / "a.h5") + " > " + (folder / "dump.txt")).c_str()), 0);
+  const std::string dump = bytes(folder / "dump.txt");
+  for (const char* line :
+       {"time = UNLIMITED ; // (300 currently)", "component_3 = 3 ;", "vector_2 = 2 ;", "double time(time)",
+        "double position(time, component_3)", "double deflection(time, vector_2, component_3)",
+        "string position:units = \"m\"", "string time:units = \"s\""})
+    EXPECT_THAT(dump, HasSubstr(line));
+}
+
+TEST(Recorder, XarrayReadsSignalsWithDimensionsAndUnits) {
+  const std::string python = "/usr/bin/python3";
+  if (!there_is(python + " -c 'import xarray, h5netcdf'"))
+    GTEST_SKIP() << "python3-xarray or python3-h5netcdf is not installed";
+  const TemporaryFolder folder;
+  record(folder / "a.h5", 300);
+  std::ofstream(folder / "read.py") << "import sys, xarray\n"
+                                       "open = lambda group: xarray.open_dataset(sys.argv[1], "
+                                       "engine='h5netcdf', group=group, decode_times=False)\n"
+                                       "p = open('bodies/chassis').position\n"
+                                       "d = open('flexible/chassis').deflection\n"
+                                       "assert p.dims == ('time', 'component_3'), p.dims\n"
+                                       "assert d.dims == ('time', 'vector_2', 'component_3'), d.dims\n"
+                                       "assert p.units == 'm' and d.shape == (300, 2, 3)\n"
+                                       "assert float(p[299, 2]) == 29902\n";
+  EXPECT_EQ(std::system((python + " " + (folder / "read.py") + " " + (folder / "a.h5")).c_str()), 0);
+}
+
+TEST(Recorder, ThousandsOfSignalsHangOnOneTimeScale) {
+  const TemporaryFolder folder;
+  std::vector<Signal> signals;
+  for (int i = 0; i < 6000; ++i)
+    signals.push_back({"/bodies/b" + std::to_string(i) + "/position", {3}, "m", "world", "", {}});
+  std::vector<double> row(18000);
+  for (std::size_t i = 0; i < row.size(); ++i) row[i] = static_cast<double>(i);
+  {
+    Recorder recorder(folder / "a.h5", signals);
+    for (int n = 0; n < 3; ++n) recorder.append(n, row);
+    recorder.close(Outcome::kComplete);
+  }
+  EXPECT_TRUE(there_is("h5dump -a /time/REFERENCE_LIST " + (folder / "a.h5") + " | grep -q '(5999)'"));
+  const ResultFile file(folder / "a.h5");
+  EXPECT_EQ(file.signals().size(), signals.size());
+  EXPECT_EQ(file.read("/bodies/b5999/position").row(2), Eigen::RowVector3d(17997, 17998, 17999));
+}
+
 TEST(Recorder, EqualRunsGiveEqualFiles) {
   const TemporaryFolder folder;
   record(folder / "a.h5", 1000);
