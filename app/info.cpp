@@ -39,6 +39,15 @@ struct Facts {
   std::optional<ModalData> modes;  ///< of a mode file
 };
 
+/// Times of the rows that are good: all, unless the run is under way or was killed.
+VectorX good_times(const hdf5::File& file) {
+  const VectorX all = file.read_matrix("/time");
+  if (!file.contains("/meta/rows")) return all;
+  const MatrixX rows = file.read_matrix("/meta/rows");
+  const bool fewer = rows.size() == 1 && rows(0, 0) >= 0 && rows(0, 0) < static_cast<double>(all.size());
+  return fewer ? VectorX(all.head(static_cast<Eigen::Index>(rows(0, 0)))) : all;
+}
+
 Facts gather(const hdf5::File& file) {
   Facts facts;
   for (const std::string& path : file.dataset_paths()) {
@@ -58,7 +67,7 @@ Facts gather(const hdf5::File& file) {
   if (file.contains("/meta")) facts.meta = file.open_group("/meta").attributes();
   if (file.contains("/meta/run")) facts.run = file.open_group("/meta/run").attributes();
   if (is_mode_file(file)) facts.modes = read_mode_file(file);
-  if (file.contains("/time")) facts.time = file.read_matrix("/time");
+  if (file.contains("/time")) facts.time = good_times(file);
   return facts;
 }
 

@@ -49,9 +49,7 @@ class OutputSafety : public testing::Test {
                                   << duration << "}\n";
   }
 
-  std::string run(const std::string& scene) const {
-    return "run " + (folder_ / scene) + " -o " + out();
-  }
+  std::string run(const std::string& scene) const { return "run " + (folder_ / scene) + " -o " + out(); }
   std::string out() const { return folder_ / "out.h5"; }
 
   /// The long run in a process of its own, once its first rows are on the disk.
@@ -64,7 +62,8 @@ class OutputSafety : public testing::Test {
       _exit(1);
     }
     const auto start = std::chrono::steady_clock::now();
-    while (rows() < 100 && std::chrono::steady_clock::now() - start < std::chrono::seconds(30)) usleep(10'000);
+    while (rows() < 100 && std::chrono::steady_clock::now() - start < std::chrono::seconds(30))
+      usleep(10'000);
     return process;
   }
 
@@ -155,9 +154,8 @@ TEST_F(OutputSafety, FullDiskKeepsEarlierFilesOfEveryKind) {
   const std::string full_at_512_bytes = "ulimit -f 1";
   for (const std::string& name : {std::string("out.h5"), std::string("r.html"), std::string("j.xml")})
     std::ofstream(folder_ / name) << "earlier";
-  for (const std::string& command :
-       {run("short.yaml"), "extract " + a + " -o " + out(),
-        "compare " + a + " " + a + " --html " + (folder_ / "r.html")}) {
+  for (const std::string& command : {run("short.yaml"), "extract " + a + " -o " + out(),
+                                     "compare " + a + " " + a + " --html " + (folder_ / "r.html")}) {
     const Answer answer = call(command, full_at_512_bytes);
     EXPECT_EQ(answer.code, 3) << command;
     EXPECT_THAT(answer.text, HasSubstr("file too large")) << command;

@@ -147,20 +147,21 @@ TEST(Recorder, XarrayReadsSignalsWithDimensionsAndUnits) {
 
 TEST(Recorder, ThousandsOfSignalsHangOnOneTimeScale) {
   const TemporaryFolder folder;
-  std::vector<Signal> signals;
-  for (int i = 0; i < 6000; ++i)
-    signals.push_back({"/bodies/b" + std::to_string(i) + "/position", {3}, "m", "world", "", {}});
-  std::vector<double> row(18000);
+  std::vector<Signal>
+      signals;  // 16 bytes each in the list of the scale: beyond the 64 KiB of an attribute in a header
+  for (int i = 0; i < 4200; ++i) signals.push_back({"/loads/n" + std::to_string(i), {}, "N", "", "", {}});
+  std::vector<double> row(signals.size());
   for (std::size_t i = 0; i < row.size(); ++i) row[i] = static_cast<double>(i);
   {
     Recorder recorder(folder / "a.h5", signals);
     for (int n = 0; n < 3; ++n) recorder.append(n, row);
     recorder.close(Outcome::kComplete);
   }
-  EXPECT_TRUE(there_is("h5dump -a /time/REFERENCE_LIST " + (folder / "a.h5") + " | grep -q '(5999)'"));
   const ResultFile file(folder / "a.h5");
   EXPECT_EQ(file.signals().size(), signals.size());
-  EXPECT_EQ(file.read("/bodies/b5999/position").row(2), Eigen::RowVector3d(17997, 17998, 17999));
+  EXPECT_EQ(file.read("/loads/n4199")(2, 0), 4199);
+  if (there_is("which ncdump"))
+    EXPECT_TRUE(there_is("ncdump -h " + (folder / "a.h5") + " | grep -q 'double n4199(time)'"));
 }
 
 TEST(Recorder, EqualRunsGiveEqualFiles) {
