@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <numeric>
 #include <set>
+#include <system_error>
 #include <utility>
 
 #include "core/error.h"
@@ -43,6 +45,22 @@ std::size_t length_of(const std::vector<Signal>& signals) {
   return length;
 }
 
+/// Deletes what runs with this output that were killed have left under names of the moment (PartialFile).
+OutputLock without_leftovers(OutputLock output) {
+  const std::filesystem::path path(output.path());
+  const std::string name = path.filename().string();
+  std::error_code unknown;
+  std::vector<std::filesystem::path> leftovers;
+  for (const auto& entry : std::filesystem::directory_iterator(
+           path.has_parent_path() ? path.parent_path() : std::filesystem::path("."), unknown)) {
+    const std::string other = entry.path().filename().string();
+    if (other.starts_with(name + ".partial-") || other.starts_with(name + ".partial.partial-"))
+      leftovers.push_back(entry.path());
+  }
+  for (const std::filesystem::path& leftover : leftovers) std::filesystem::remove(leftover, unknown);
+  return output;
+}
+
 std::string status_text(Outcome outcome, std::string_view why) {
   switch (outcome) {
     case Outcome::kComplete:
@@ -62,7 +80,7 @@ int Signal::size() const {
 }
 
 Recorder::Recorder(OutputLock output, std::vector<Signal> signals, const RecorderOptions& options)
-    : output_(std::move(output)),
+    : output_(without_leftovers(std::move(output))),
       signals_((check_signals(output_.path(), signals), std::move(signals))),
       storage_{static_cast<std::size_t>(options.chunk_rows), static_cast<unsigned>(options.deflate_level)},
       row_length_(length_of(signals_)),

@@ -39,14 +39,15 @@ class OutputSafety : public testing::Test {
   }
 
   void write_scene(const std::string& name, const std::string& duration) {
-    std::ofstream(folder_ / name) << "wishbone: 1\n"
-                                     "bodies:\n"
-                                     "  rod: {mass: 1, inertia: [0.1, 0.1, 0.1], position: [0, 0, -0.5]}\n"
-                                     "joints:\n"
-                                     "  pin: {type: revolute, bodies: [ground, rod], at: [0, 0, 0], axis: y, "
-                                     "position: 40 deg}\n"
-                                     "analysis: {duration: "
-                                  << duration << "}\n";
+    std::ofstream(folder_ / name)
+        << "wishbone: 1\n"
+           "bodies:\n"
+           "  rod: {mass: 1, inertia: [0.1, 0.1, 0.1], position: [0, 0, -0.5]}\n"
+           "joints:\n"
+           "  pin: {type: revolute, bodies: [ground, rod], at: [0, 0, 0], axis: [0, 1, 0], "
+           "position: 40 deg}\n"
+           "analysis: {duration: "
+        << duration << "}\n";
   }
 
   std::string run(const std::string& scene) const { return "run " + (folder_ / scene) + " -o " + out(); }

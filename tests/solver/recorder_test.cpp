@@ -160,8 +160,9 @@ TEST(Recorder, ThousandsOfSignalsHangOnOneTimeScale) {
   const ResultFile file(folder / "a.h5");
   EXPECT_EQ(file.signals().size(), signals.size());
   EXPECT_EQ(file.read("/loads/n4199")(2, 0), 4199);
-  if (there_is("which ncdump"))
+  if (there_is("which ncdump")) {
     EXPECT_TRUE(there_is("ncdump -h " + (folder / "a.h5") + " | grep -q 'double n4199(time)'"));
+  }
 }
 
 TEST(Recorder, EqualRunsGiveEqualFiles) {
@@ -297,6 +298,16 @@ TEST(Recorder, SecondWriterOfOneFileIsRefusedAndTheFirstGoesOn) {
   record(path, 3);  // the lock of the dead is nobody's
   EXPECT_FALSE(std::filesystem::exists(path + ".lock"));
   EXPECT_EQ(ResultFile(path).time().size(), 3);
+}
+
+TEST(Recorder, RemovesWhatKilledWritersOfTheSameFileLeft) {
+  const TemporaryFolder folder;
+  for (const char* name : {"a.h5.partial-0a1b2c", "a.h5.partial.partial-0a1b2c", "b.h5.partial-0a1b2c"})
+    std::ofstream(folder / name) << "left";
+  record(folder / "a.h5", 3);
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.h5.partial-0a1b2c"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.h5.partial.partial-0a1b2c"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "b.h5.partial-0a1b2c"));
 }
 
 TEST(Recorder, LinkWithTheNameOfThePartialFileIsNotFollowed) {
