@@ -37,9 +37,14 @@ struct RunResult {
   double wall_seconds = 0, cpu_seconds = 0;
 };
 
+/// The form and method that the scene, or the command line in its stead, means.
+/// @throws InputError naming the place of `analysis` in the file when they do not fit
+IntegratorOptions resolved_options(const Scene& scene, const CompiledScene& compiled);
+
 /// Keeps the modes that were identified for its bodies, runs the compiled scene and streams every signal to the results file. A run that fails keeps what it computed; the file
 /// says so in its status.
-/// @throws InputError when form and integrator do not fit the scene or it cannot be assembled: then no file is made and one
+/// @throws InputError when form and integrator do not fit the scene, a prescribed motion jumps, two parts of the scene want one
+///   path of the results, or it cannot be assembled: then no file is made and one
 ///   of that name stays as it is; NumericsError when the file cannot be written
 RunResult run_scene(const Scene& scene, const CompiledScene& compiled, const RunRequest& request);
 
