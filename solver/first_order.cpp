@@ -22,6 +22,17 @@ State sized_state(const System& system) {
   return {0, VectorX::Zero(system.nq), VectorX::Zero(system.nv), VectorX::Zero(system.nx)};
 }
 
+/// Of a trial state: what exerts most has driven it beyond all bounds.
+void require_finite_state(const System& system, const State& state, const Workspace& ws) {
+  if (state.q.allFinite() && state.v.allFinite()) return;
+  int i = 0;
+  while (i < system.nv && std::isfinite(state.v[i])) ++i;
+  throw NumericsError(
+      {fmt::format("{} at t = {:.9g} s", i < system.nv ? system.speed_name(i) : "a coordinate", state.t),
+       "this is not a finite number" + largest_force_text(system, state.t, state.x, ws), "",
+       "look for extreme values in the forces that act there"});
+}
+
 }  // namespace
 
 void require_finite(const System& system, double t, const Eigen::Ref<const VectorX>& x,
@@ -80,6 +91,7 @@ bool FirstOrderSystem::is_stuck() {
 }
 
 Work FirstOrderSystem::calc_motion(const State& state) {
+  require_finite_state(system_, state, ws_);
   calc_forward_dynamics(system_, state, ws_);
   require_finite(system_, state.t, state.x, ws_.v_rate, ws_);
   if (needs_joint_forces_) calc_joint_forces(system_, ws_);

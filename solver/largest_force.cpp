@@ -42,13 +42,37 @@ LargestForce find_largest_force(const System& system, double t, const VectorX& x
   return largest;
 }
 
+namespace {
+
+/// The prescribed motion with the largest acceleration, or nothing.
+std::string fastest_motion_text(const System& system, double t) {
+  std::string name;
+  double fastest = -1;
+  const auto look = [&](const std::string& joint, const Motion& motion) {
+    const double acceleration = std::abs(motion.at(t).acceleration);
+    if (!(acceleration > fastest)) return;
+    fastest = acceleration;
+    name = joint;
+  };
+  for (const TreeBody& body : system.bodies)
+    if (const auto* joint = std::get_if<PrescribedJoint>(&body.joint)) look(body.joint_name, joint->motion);
+  for (const Closure& closure : system.closures)
+    if (const Motion* motion = drive(closure.joint)) look(closure.name, *motion);
+  if (name.empty()) return "";
+  return fmt::format("; the largest prescribed acceleration is that of '{}', {:.3g} m/s2 or rad/s2", name,
+                     fastest);
+}
+
+}  // namespace
+
 std::string largest_force_text(const System& system, double t, const VectorX& x,
                                const Evaluation<double>& ev) {
   try {
     const LargestForce largest = find_largest_force(system, t, x, ev);
-    if (largest.name.empty()) return "";
-    return fmt::format("; the largest force there is that of '{}', {:.3g} N or N m", largest.name,
-                       largest.magnitude);
+    const std::string motion = fastest_motion_text(system, t);
+    if (largest.name.empty()) return motion;
+    return fmt::format("; the largest force there is that of '{}', {:.3g} N or N m{}", largest.name,
+                       largest.magnitude, motion);
   } catch (const NumericsError& error) {
     return fmt::format("; {}: {}", error.diagnostic().where, error.diagnostic().what);
   }

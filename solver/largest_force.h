@@ -19,8 +19,8 @@ struct LargestForce {
 LargestForce find_largest_force(const System& system, double t, const VectorX& x,
                                 const Evaluation<double>& ev);
 
-/// "; the largest force there is that of 'push', 3e+14 N or N m", or nothing when there are no forces. Of an element that
-/// is undefined there, what it says.
+/// "; the largest force there is that of 'push', 3e+14 N or N m", and likewise the prescribed motion with the largest
+/// acceleration; nothing when there are none. Of an element that is undefined there, what it says.
 std::string largest_force_text(const System& system, double t, const VectorX& x,
                                const Evaluation<double>& ev);
 

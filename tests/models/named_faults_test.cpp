@@ -81,7 +81,7 @@ TEST(NamedFaults, TellTheExpressionAndItsInputs) {
 
 TEST(NamedFaults, OfMotionsInEveryFormAndMethod) {
   for (const char* solver : kSolvers)
-    for (const char* fault : {"sqrt(0.05 - t)", "ln(0.05 - t)", "asin(20*t)", "exp(2e4*t)", "1/(0.05 - t)"}) {
+    for (const char* fault : {"sqrt(0.05 - t)", "ln(0.05 - t)", "asin(20*t)", "1/(0.05 - t)"}) {
       std::string text = scene_of("0*t", kVictims[0], solver);
       text.replace(text.find("speed: 10}"), 10, "motion: drive}");
       text.replace(text.find("speed: -10"), 10, "speed: 0");
