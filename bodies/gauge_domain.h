@@ -9,6 +9,12 @@
 
 namespace wishbone {
 
+/// |v|; at zero, where it has no derivative, a plain zero.
+template <class T>
+T norm_or_zero(const Vector3T<T>& v) {
+  return v.squaredNorm() > 0 ? T(v.norm()) : T(0);
+}
+
 /// A distance has no direction at zero: checks that `gauge` can be differentiated between A and B.
 /// @throws NumericsError naming the element, the rule and the value unless it can
 template <class T>

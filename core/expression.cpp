@@ -23,7 +23,7 @@ std::vector<std::string> known_names(const std::vector<std::string>& variables,
 
 Expression::Expression(const std::string& text, const std::vector<std::string>& variables,
                        const std::map<std::string, double>& constants)
-    : text_(text) {
+    : text_(text), variable_names_(variables) {
   const auto read_name = [&](const std::string& name) -> std::optional<NameMeaning> {
     const auto variable = std::find(variables.begin(), variables.end(), name);
     const auto constant = constants.find(name);
@@ -37,6 +37,14 @@ Expression::Expression(const std::string& text, const std::vector<std::string>& 
     return std::nullopt;
   };
   program_ = parse_expression(text, read_name, known_names(variables, constants));
+}
+
+std::string Expression::shown(std::span<const double> values) const {
+  std::string inputs;
+  for (const int i : program_.variables())
+    inputs += fmt::format("{}{} = {:.9g}", inputs.empty() ? " with " : ", ",
+                          variable_names_[static_cast<std::size_t>(i)], values[static_cast<std::size_t>(i)]);
+  return fmt::format("'{}'{}", text_, inputs);
 }
 
 std::vector<std::string> names_in_expression(const std::string& expression) {

@@ -38,14 +38,19 @@ class Expression {
   }
 
   const std::string& text() const { return text_; }
+  /// For messages: "'sqrt(gap - 1)' with gap = 0.2", the variables that it uses with their values.
+  std::string shown(std::span<const double> values) const;
   /// Indices of the variables that it uses, ascending.
   std::vector<int> variables() const { return program_.variables(); }
   /// Where its steps along a variable begin and end: x0 and x1 of every step(x, x0, h0, x1, h1) whose x is
   /// that variable and whose edges are constant. In no order.
   std::vector<double> step_edges(int variable) const { return program_.step_edges(variable); }
+  /// Where it may jump along a variable: the constants that it compares the variable with. In no order.
+  std::vector<double> switches(int variable) const { return program_.switches(variable); }
 
  private:
   std::string text_;
+  std::vector<std::string> variable_names_;
   ExpressionProgram program_;
 };
 

@@ -185,6 +185,20 @@ std::vector<double> ExpressionProgram::step_edges(int variable) const {
   return edges;
 }
 
+std::vector<double> ExpressionProgram::switches(int variable) const {
+  std::vector<double> places;
+  const auto is_variable = [&](const Instruction& c) {
+    return c.operation == Operation::variable && c.index == variable;
+  };
+  for (std::size_t i = 2; i < code_.size(); ++i) {
+    const Instruction &a = code_[i - 2], &b = code_[i - 1];
+    if (code_[i].operation < Operation::less || code_[i].operation > Operation::not_equal) continue;
+    if (is_variable(a) && b.operation == Operation::constant) places.push_back(b.number);
+    if (is_variable(b) && a.operation == Operation::constant) places.push_back(a.number);
+  }
+  return places;
+}
+
 void ExpressionProgram::push(Instruction instruction) {
   code_.push_back(instruction);
   deepest_ = std::max(deepest_, ++height_);

@@ -65,6 +65,7 @@ class ExpressionProgram {
 
   std::vector<int> variables() const;
   std::vector<double> step_edges(int variable) const;
+  std::vector<double> switches(int variable) const;
 
   void push_constant(double value) { push({Operation::constant, 0, value}); }
   void push_variable(int index) { push({Operation::variable, index, 0}); }

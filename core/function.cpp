@@ -1,5 +1,7 @@
 #include "core/function.h"
 
+#include <fmt/format.h>
+
 namespace wishbone {
 
 std::optional<double> Function::constant() const {
@@ -25,6 +27,13 @@ std::vector<double> Function::stop_times() const {
   std::vector<double> kinks = table->kinks();
   if (kinks.size() > kMostStops) return {};
   return kinks;
+}
+
+std::string Function::shown(std::span<const double> variables) const {
+  if (const double* constant = std::get_if<double>(&law_)) return fmt::format("{:g}", *constant);
+  if (const Expression* expression = std::get_if<Expression>(&law_)) return expression->shown(variables);
+  return fmt::format("a table at {:.9g}",
+                     variables[static_cast<std::size_t>(std::get<TableOf>(law_).variable)]);
 }
 
 }  // namespace wishbone

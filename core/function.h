@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -40,6 +41,10 @@ class Function {
   /// Times, in no order, at which a table bends, or a step(t, ...) of an expression begins or ends. Other
   /// kinks of expressions are not known.
   std::vector<double> stop_times() const;
+  /// The expression, when it is one.
+  const Expression* expression() const { return std::get_if<Expression>(&law_); }
+  /// For messages: what it is and the values of the variables that it uses.
+  std::string shown(std::span<const double> variables) const;
 
  private:
   struct TableOf {

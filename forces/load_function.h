@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <string_view>
+#include <vector>
 
 #include "core/dual.h"
 #include "core/error.h"
@@ -28,10 +29,12 @@ template <class T>
 T load_value(const Function& function, const ForceInputT<T>& input, std::string_view element) {
   const T f = function(input.variables);
   if (is_finite(f)) return f;
+  std::vector<double> values;
+  for (const T& variable : input.variables) values.push_back(value_of(variable));
   throw NumericsError(
-      {fmt::format("{} at t = {:g} s", element, input.time), "the load has no value or no derivative",
-       fmt::format("{:g}", value_of(f)),
-       "look for a division by zero or the root or logarithm of a negative number in its expression"});
+      {fmt::format("{} at t = {:.9g} s", element, input.time), "the load has no value or no derivative",
+       fmt::format("{:g} of {}", value_of(f), function.shown(values)),
+       "look for a division by zero, an overflow, or the root or logarithm of a negative number in it"});
 }
 
 }  // namespace wishbone

@@ -34,14 +34,15 @@ class MotionSignal {
   std::vector<MarkerIndex> markers() const { return is_gauge_ ? std::vector{A_, B_} : std::vector{A_}; }
 
   /// @param near the angle that it had last
-  /// @throws NumericsError naming the signal where a distance has shrunk to zero
+  /// A distance has a kink at zero, where both points meet: its rate there is that with which they part, |v_AB|.
   template <class T>
   T value(std::span<const MarkerStateT<T>> markers, double near) const {
     const MarkerStateT<T>&A = markers[static_cast<std::size_t>(A_)],
           &B = markers[static_cast<std::size_t>(B_)];
     const bool is_speed = quantity_ == Quantity::speed;
     if (!is_gauge_) return is_speed ? A.v_WM[axis_] : A.p_WM[axis_];
-    require_defined(gauge_, A, B, name_);
+    if (gauge_.kind == Gauge::Kind::distance && !((B.p_WM - A.p_WM).squaredNorm() > 0))
+      return is_speed ? norm_or_zero(Vector3T<T>(B.v_WM - A.v_WM)) : T(0);
     return is_speed ? gauge_.rate(A, B) : gauge_.value(A, B, near);
   }
 

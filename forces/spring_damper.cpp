@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 
+#include "bodies/gauge_domain.h"
 #include "core/dual.h"
 #include "core/require.h"
 
@@ -19,28 +21,41 @@ SpringDamper::SpringDamper(std::string name, MarkerIndex P, MarkerIndex Q, doubl
       free_length_(free_length) {
   require(P != Q, name_, "the two ends must be different markers", P,
           "attach the second end to another marker");
-  require(stiffness >= 0, name_, "the stiffness must not be negative", stiffness, "give it in N/m, positive");
-  require(damping >= 0, name_, "the damping must not be negative", damping, "give it in N s/m, positive");
-  require(free_length >= 0, name_, "the free length must not be negative", free_length,
-          "give it in m, positive");
+  require(stiffness >= 0 && std::isfinite(stiffness), name_, "the stiffness must be finite and not negative",
+          stiffness, "give it in N/m, positive");
+  require(damping >= 0 && std::isfinite(damping), name_, "the damping must be finite and not negative",
+          damping, "give it in N s/m, positive");
+  require(free_length >= 0 && std::isfinite(free_length), name_,
+          "the free length must be finite and not negative", free_length, "give it in m, positive");
 }
 
 template <class T>
 SpringDamper::Line<T> SpringDamper::line(const ForceInputT<T>& input) const {
   const MarkerStateT<T>& P = input.markers[P_];
   const MarkerStateT<T>& Q = input.markers[Q_];
-  const Vector3T<T> p_PQ = Q.p_WM - P.p_WM;
+  const Vector3T<T> p_PQ = Q.p_WM - P.p_WM, v_PQ = Q.v_WM - P.v_WM;
+  if (!(p_PQ.squaredNorm() > 0)) return line_of_no_length(p_PQ, v_PQ, input.time);
   Line<T> s;
   s.length = p_PQ.norm();
-  if (!(s.length > 0)) {
-    throw NumericsError({fmt::format("{} at t = {} s", name_, input.time),
-                         "the ends of the spring must not coincide: length [m]",
-                         fmt::format("{:g}", value_of(s.length)),
+  const Vector3T<T> u = p_PQ / s.length;
+  s.rate = u.dot(v_PQ);
+  s.tension = stiffness_ * (s.length - free_length_) + damping_ * s.rate;
+  s.force = s.tension * u;
+  return s;
+}
+
+template <class T>
+SpringDamper::Line<T> SpringDamper::line_of_no_length(const Vector3T<T>& p_PQ, const Vector3T<T>& v_PQ,
+                                                      double time) const {
+  if (free_length_ != 0)
+    throw NumericsError({fmt::format("{} at t = {} s", name_, time),
+                         "the ends of the spring must not coincide: length [m]", "0",
                          "move one of its points, or model the connection by a joint"});
-  }
-  s.u = p_PQ / s.length;
-  s.rate = s.u.dot(Q.v_WM - P.v_WM);
-  s.force = stiffness_ * (s.length - free_length_) + damping_ * s.rate;
+  Line<T> s;
+  s.length = T(0);
+  s.rate = norm_or_zero(v_PQ);
+  s.tension = damping_ * s.rate;
+  s.force = stiffness_ * p_PQ + damping_ * v_PQ;
   return s;
 }
 
@@ -51,9 +66,9 @@ std::vector<MarkerIndex> SpringDamper::markers() const {
 template <class T>
 void SpringDamper::apply(const ForceInputT<T>& input, ForceOutputT<T>& output) const {
   const Line<T> s = line(input);
-  output.wrenches[P_].f += s.force * s.u;
-  output.wrenches[Q_].f -= s.force * s.u;
-  output.power = -s.force * s.rate;
+  output.wrenches[P_].f += s.force;
+  output.wrenches[Q_].f -= s.force;
+  output.power = -s.tension * s.rate;
 }
 
 double SpringDamper::energy(const ForceInput& input) const {
@@ -63,7 +78,7 @@ double SpringDamper::energy(const ForceInput& input) const {
 
 SpringDamperOutput SpringDamper::output(const ForceInput& input) const {
   const Line<double> s = line(input);
-  return {s.length, s.rate, s.force};
+  return {s.length, s.rate, s.tension};
 }
 
 template void SpringDamper::apply(const ForceInputT<double>&, ForceOutputT<double>&) const;

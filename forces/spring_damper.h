@@ -17,8 +17,9 @@ struct SpringDamperOutput {
 /// Point-to-point spring and damper between the origins of two markers P and Q:
 ///     l = |p_PQ|,  u = p_PQ/l,  l' = u.(v_Q - v_P),  f = k (l - l0) + c l';  force +f u on P, -f u on Q; no
 ///     moments.
-/// Energy k (l - l0)^2/2. The direction u is undefined at l = 0.
-/// @throws NumericsError from apply and output naming the element and the time when P and Q coincide
+/// Energy k (l - l0)^2/2. The direction u is undefined at l = 0; a spring of free length zero needs none there: its force is
+/// k p_PQ + c (v_Q - v_P), as when both ends part along their relative velocity.
+/// @throws NumericsError from apply and output naming the element and the time when P and Q coincide and l0 is not zero
 class SpringDamper {
  public:
   /// @param stiffness k >= 0 [N/m]  @param damping c >= 0 [N s/m]  @param free_length l0 >= 0 [m]
@@ -44,13 +45,15 @@ class SpringDamper {
  private:
   template <class T>
   struct Line {
-    T length;  // l
-    T rate;    // l'
-    T force;   // f
-    Vector3T<T> u;
+    T length;           // l
+    T rate;             // l'
+    T tension;          // f
+    Vector3T<T> force;  // f u
   };
   template <class T>
   Line<T> line(const ForceInputT<T>& input) const;
+  template <class T>
+  Line<T> line_of_no_length(const Vector3T<T>& p_PQ, const Vector3T<T>& v_PQ, double time) const;
 
   std::string name_;
   MarkerIndex P_, Q_;

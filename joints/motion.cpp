@@ -109,13 +109,17 @@ MotionValue Motion::at(double t) const {
   }
   if (!is_finite(x))
     fail("the motion has no value, rate or acceleration", t, x.value,
-         "look for a root of zero, a division by zero or a jump in its expression");
+         "look for a root of zero, a division by zero, an overflow or a jump in its expression");
   return {x.value, x.d1, x.d2};
 }
 
 void Motion::fail(const std::string& what, double t, double value, const std::string& remedy) const {
   throw NumericsError(
       {fmt::format("{} at t = {:g} s", element_, t), what, fmt::format("{:g}", value), remedy});
+}
+
+std::vector<double> Motion::switch_times() const {
+  return may_jump() ? law_->expression()->switches(Function::kTime) : std::vector<double>{};
 }
 
 std::vector<double> Motion::stop_times() const {

@@ -61,6 +61,11 @@ class Motion {
   /// Kinks of an expression are known where it calls step(t, ...) only.
   std::vector<double> stop_times() const;
 
+  /// Whether it is an expression, which alone may jump or bend.
+  bool may_jump() const { return law_ && law_->expression(); }
+  /// Times at which it may jump [s], in no order: constants that an expression compares the time with.
+  std::vector<double> switch_times() const;
+
  private:
   void check_ackermann() const;
   double steering_limit() const;

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <map>
@@ -136,6 +137,19 @@ std::vector<Corners> tabled_elements(const std::filesystem::path& path, const st
   return elements;
 }
 
+/// Two elements on the same eight nodes would count their mass and stiffness twice.
+void refuse_twins(const Value& list, const std::vector<Corners>& elements) {
+  std::map<Corners, std::size_t> known;
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    Corners nodes = elements[e];
+    std::sort(nodes.begin(), nodes.end());
+    const auto [other, is_new] = known.emplace(nodes, e);
+    if (!is_new)
+      list.refuse(fmt::format("element {} has the nodes of element {}", e + 1, other->second + 1),
+                  "remove one of the two");
+  }
+}
+
 /// {nodes, elements, material}: listed hexahedra.
 AnalyticalModel read_mesh(const Value& value, Files& files) {
   const Mapping keys(value, {"nodes", "elements", "material"});
@@ -147,6 +161,7 @@ AnalyticalModel read_mesh(const Value& value, Files& files) {
   const std::vector<Corners> elements =
       list.is_list() ? listed_elements(list, nodes.ids) : tabled_elements(files.note(list), nodes.ids);
   if (elements.empty()) list.refuse("there are no elements", "name at least one");
+  refuse_twins(list, elements);
 
   HexahedralMesh mesh{std::move(nodes.ids), std::move(nodes.position), {}};
   mesh.elements.resize(8, static_cast<Eigen::Index>(elements.size()));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "identification/formats/mode_file.h"
+#include "models/run_scene.h"
 #include "solver/assembly.h"
 #include "solver/events.h"
 
@@ -117,7 +118,7 @@ Plan make_plan(const Scene& scene, const CompiledScene& compiled) {
   list_closures(system, assembly, plan);
   plan.mobility = system.nv - plan.rank;
 
-  const IntegratorOptions integrator = resolve(compiled.transient.integrator, system);
+  const IntegratorOptions integrator = resolved_options(scene, compiled);
   plan.form = to_string(integrator.form);
   plan.integrator = to_string(integrator.method);
   plan.modes = compiled.modes;

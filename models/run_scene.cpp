@@ -9,11 +9,14 @@
 #include <ctime>
 #include <filesystem>
 #include <iterator>
+#include <set>
 #include <utility>
 
 #include "core/version.h"
+#include "core/yaml.h"
 #include "identification/formats/identification_file.h"
 #include "solver/recorder.h"
+#include "solver/run_check.h"
 
 namespace wishbone {
 namespace {
@@ -90,9 +93,10 @@ Outcome outcome(TransientSummary::Status status) {
 
 /// Finds out on a copy of the initial state whether the run can start at all, so that no file is made in vain and no
 /// earlier one replaced.
-/// @throws InputError when form and integrator do not fit the system or the state cannot be assembled
-void check_start(const CompiledScene& compiled) {
-  resolve(compiled.transient.integrator, compiled.system);
+/// @throws InputError when form and integrator do not fit the system, a prescribed motion jumps or the state cannot be assembled
+void check_start(const Scene& scene, const CompiledScene& compiled) {
+  const IntegratorOptions options = resolved_options(scene, compiled);
+  check_prescribed_motions(compiled.system, compiled.transient.duration, options);
   State state = compiled.initial;
   Workspace ws(compiled.system);
   assemble(compiled.system, state, ws);
@@ -103,6 +107,37 @@ double expected_rows(const TransientOptions& options) {
   return std::ceil(options.duration / options.interval) + 64;
 }
 
+/// Places of what the scene calls `name` and keeps its results in `group`.
+std::vector<std::string> places_named(const std::string& name, const std::string& group, const Scene& scene) {
+  std::vector<std::string> places;
+  const auto note = [&](const char* in, const auto& elements) {
+    for (const auto& element : elements)
+      if (group == in && element.name == name) places.push_back(element.where.text());
+  };
+  note("/joints", scene.joints);
+  note("/joints", scene.closures);
+  note("/forces", scene.springs);
+  note("/forces", scene.drives);
+  note("/loads", scene.loads);
+  return places;
+}
+
+/// Results are kept under the names of the parts of the scene: /forces/coil/length.
+/// @throws InputError naming the places of two parts that want the same
+void check_paths(const Scene& scene, const std::vector<Signal>& signals) {
+  std::set<std::string> taken;
+  for (const Signal& signal : signals) {
+    if (taken.insert(signal.path).second) continue;
+    const std::size_t begin = signal.path.find('/', 1) + 1, end = signal.path.find('/', begin);
+    const std::string name = signal.path.substr(begin, end - begin);
+    const std::vector<std::string> places = places_named(name, signal.path.substr(0, begin - 1), scene);
+    throw InputError({places.empty() ? scene.output.where.text() : places.back(),
+                      places.size() < 2 ? fmt::format("results of '{}' are kept under this path twice", name)
+                                        : fmt::format("'{}' is the name of {} too", name, places.front()),
+                      signal.path, "rename one of them: results are kept by name"});
+  }
+}
+
 }  // namespace
 
 std::string identified_modes_path(const std::string& output_path, const std::string& body) {
@@ -110,16 +145,22 @@ std::string identified_modes_path(const std::string& output_path, const std::str
   return (path.parent_path() / (path.stem().string() + "." + body + "_modes.h5")).string();
 }
 
+IntegratorOptions resolved_options(const Scene& scene, const CompiledScene& compiled) {
+  const auto resolved = [&] { return resolve(compiled.transient.integrator, compiled.system); };
+  return scene.analysis.where.text().empty() ? resolved() : within(scene.analysis.where, resolved);
+}
+
 RunResult run_scene(const Scene& scene, const CompiledScene& compiled, const RunRequest& request) {
   const auto wall_start = std::chrono::steady_clock::now();
   const std::clock_t cpu_start = std::clock();
   OutputLock output(request.output_path);
-  check_start(compiled);
+  check_start(scene, compiled);
+  Observer observer(compiled.system, compiled.observer);
+  check_paths(scene, observer.signals());
   for (const IdentifiedBody& body : compiled.identified)
     write_identification(identified_modes_path(request.output_path, body.body), body.identification);
   RunResult result;
   Workspace ws(compiled.system);
-  Observer observer(compiled.system, compiled.observer);
   const std::vector<std::string> unmatched = observer.keep(scene.output.record);
   Recorder recorder(std::move(output), observer.signals(),
                     {.expected_rows = expected_rows(compiled.transient)});

@@ -37,11 +37,16 @@ struct RunResult {
   double wall_seconds = 0, cpu_seconds = 0;
 };
 
+/// The form and method that the scene, or the command line in its stead, means.
+/// @throws InputError naming the place of `analysis` in the file when they do not fit
+IntegratorOptions resolved_options(const Scene& scene, const CompiledScene& compiled);
+
 /// Keeps the modes that were identified for its bodies, runs the compiled scene and records the signals that it chooses (all by
 /// default) in the results file, which no other run writes meanwhile. A run that fails keeps what it computed; the file says so in
 /// its status.
-/// @throws InputError when form and integrator do not fit the scene or it cannot be assembled: then no file is made and one
-///   of that name stays as it is, likewise when another run writes to it or no signal is chosen; NumericsError when the file cannot be written
+/// @throws InputError when form and integrator do not fit the scene, a prescribed motion jumps, two parts of the scene want one
+///   path of the results, it cannot be assembled, another run writes to the file, or no signal is chosen: then no file is made and
+///   one of that name stays as it is; NumericsError when the file cannot be written
 RunResult run_scene(const Scene& scene, const CompiledScene& compiled, const RunRequest& request);
 
 }  // namespace wishbone

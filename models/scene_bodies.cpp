@@ -7,6 +7,7 @@
 
 #include "bodies/mode_set.h"
 #include "models/identification_sections.h"
+#include "models/scene_doubts.h"
 #include "models/scene_sections.h"
 
 namespace wishbone::scene_sections {
@@ -50,6 +51,7 @@ Scene::Body read_body_keys(const std::string& name, const Value& value, Scene& s
   if (const auto orientation = keys.optional("orientation")) {
     const Mapping turn(*orientation, {"axis", "angle"});
     body.X_DB.R = read_rotation(turn.required("axis"), turn.required("angle"));
+    doubt_angle(turn.required("angle"), scene.warnings);
   }
   if (const auto velocity = keys.optional("velocity")) body.v_WBo = velocity->vector3(kVelocity);
   if (const auto rate = keys.optional("angular_velocity")) body.w_WB_B = rate->vector3(kAngularVelocity);

@@ -26,14 +26,20 @@ void read_distance(const Value& value, const std::vector<std::string>& motion_na
   if (const auto length = keys.optional("length")) closure.length = length->positive(kLength);
   constexpr double kShortest = 1e-9;
   if (!closure.length && !((closure.from.p_DP - closure.to.p_DP).norm() > kShortest))
-    value.refuse("the points coincide in the design pose",
-                 "join them by a spherical joint, or give 'length'");
+    value.refuse(
+        "the points coincide in the design pose",
+        "join them by a spherical joint; or set them apart, by 'position' of a joint or another design "
+        "pose, and give 'length'");
 }
 
 void read_guided_point(const Value& value, const Scene& scene, Scene::Closure& closure) {
   const Mapping keys(value, {"type", "from", "to", "direction"});
   read_points(keys, scene, closure);
   closure.direction_D = keys.required("direction").direction();
+}
+
+bool is_same(const Scene::JointCoordinate& a, const Scene::JointCoordinate& b) {
+  return a.joint == b.joint && a.coordinate == b.coordinate;
 }
 
 /// sum factor u = constant, by its terms.
@@ -43,7 +49,11 @@ void read_coupling(const Value& value, const Scene& scene, Scene::Closure& closu
     const Mapping term(item, {"joint", "coordinate", "factor"});
     const double factor = term.required("factor").number(kRatio);
     if (factor == 0) item.refuse("the factor of a term is zero", "remove the term");
-    closure.terms.push_back({read_joint_coordinate(term, scene), factor});
+    const Scene::JointCoordinate of = read_joint_coordinate(term, scene);
+    for (const Scene::Closure::Term& other : closure.terms)
+      if (is_same(of, other.of))
+        item.refuse("the coordinate is in the coupling already", "name another, or add both factors up");
+    closure.terms.push_back({of, factor});
   }
   if (closure.terms.empty()) value.refuse("the coupling has no terms", "name joints and factors");
   if (const auto constant = keys.optional("constant")) closure.constant = constant->number(kRatio);
@@ -59,6 +69,8 @@ void read_pair(const Value& value, std::string_view ratio_key, const Dimension& 
   const double factor = keys.required(ratio_key).number(ratio);
   if (factor == 0) keys.refuse(fmt::format("'{}' is zero", ratio_key), "give the transmission");
   closure.terms = {{side("driven"), 1.0}, {side("driver"), -factor}};
+  if (is_same(closure.terms[0].of, closure.terms[1].of))
+    keys.required("driven").refuse("the coordinate is driven by itself", "name the joint of the other part");
 }
 
 Scene::Closure read_closure(const std::string& name, const Value& value,

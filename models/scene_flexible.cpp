@@ -10,6 +10,7 @@
 #include "identification/elements/hexahedral_mesh.h"
 #include "models/identification_loader.h"
 #include "models/identification_sections.h"
+#include "models/scene_doubts.h"
 #include "models/scene_sections.h"
 
 namespace wishbone::scene_sections {
@@ -327,8 +328,10 @@ Scene::Flexible read_flexible(const Value& value, Scene& scene) {
     if (const auto count = known_count(flexible))
       flexible.damping.assign(static_cast<std::size_t>(*count), 0.0);
   }
-  if (const auto damping = keys.optional("damping"))
+  if (const auto damping = keys.optional("damping")) {
     take_damping(*damping, identified ? std::nullopt : known_count(flexible), flexible);
+    doubt_damping(*damping, scene.warnings);
+  }
   if (const auto frames = keys.optional("frames"))
     for (const auto& [name, frame] : frames->named())
       flexible.frames.push_back(read_frame(name, frame, flexible));

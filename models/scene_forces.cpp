@@ -19,10 +19,6 @@ Scene::Spring read_spring(const std::string& name, const Value& value, const Sce
   spring.stiffness = keys.required("stiffness").non_negative(kStiffness);
   if (const auto damping = keys.optional("damping")) spring.damping = damping->non_negative(kDamping);
   spring.free_length = keys.required("free_length").non_negative(kLength);
-  if ((spring.from.p_DP - spring.to.p_DP).isZero(0.0)) {
-    keys.refuse("the spring has zero length in the design pose, so its force has no direction",
-                "move one of its ends");
-  }
   return spring;
 }
 

@@ -1,3 +1,8 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+
 #include "core/units.h"
 #include "models/scene_coordinates.h"
 
@@ -45,6 +50,20 @@ Scene::CoordinateFriction read_joint_friction(int i, const Value& value, const J
   return friction;
 }
 
+/// k of f = k d^n in N/m^n or N m/rad^n. Units have whole powers only; for other exponents a plain number is wanted.
+double read_stop_stiffness(const Value& value, double exponent, const JointCoordinateKind& kind) {
+  const std::string unit = fmt::format("{}{:g}", kind.is_angle ? "N m/rad" : "N/m", exponent);
+  if (exponent == 1) return value.positive(kind.is_angle ? kTorsionalStiffness : kStiffness);
+  if (exponent == std::floor(exponent) && exponent < 10) return value.positive({"stiffness of a stop", unit});
+  const bool has_unit = looks_like_number(value.text()) && !parse_quantity(value.text()).base.empty();
+  if (has_unit)
+    value.refuse(fmt::format("the stiffness of a stop of exponent {:g} is in {}^{:g}", exponent,
+                             kind.is_angle ? "N m/rad" : "N/m", exponent),
+                 fmt::format("write the plain number in that unit, or 'exponent: 1' for a stiffness in {}",
+                             kind.is_angle ? "N m/rad" : "N/m"));
+  return value.positive(kRatio);
+}
+
 Scene::CoordinateLimit read_joint_limit(int i, const Value& value, const JointCoordinateKind& kind) {
   const Mapping keys(value, {"lower", "upper", "stiffness", "exponent", "damping"});
   const CoordinateDimensions d = dimensions_of(kind, value);
@@ -57,8 +76,9 @@ Scene::CoordinateLimit read_joint_limit(int i, const Value& value, const JointCo
     value.refuse("the lower limit is not below the upper one", "exchange them");
   if (const auto n = keys.optional("exponent")) limit.exponent = n->positive(kRatio);
   if (limit.exponent < 1) value.refuse("the exponent of a stop is below one", "give 1 to 3; 1.5 is usual");
-  limit.stiffness = keys.required("stiffness").positive(kRatio);
-  if (const auto b = keys.optional("damping")) limit.damping = b->non_negative(kRatio);
+  limit.stiffness = read_stop_stiffness(keys.required("stiffness"), limit.exponent, kind);
+  const Dimension per_rate{"damping of a stop", kind.is_angle ? "s/rad" : "s/m"};
+  if (const auto b = keys.optional("damping")) limit.damping = b->non_negative(per_rate);
   return limit;
 }
 

@@ -1,8 +1,12 @@
 #include "models/scene_loader.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "core/document.h"
 #include "core/parameters.h"
 #include "core/yaml.h"
+#include "models/scene_doubts.h"
 #include "models/scene_sections.h"
 
 namespace wishbone {
@@ -11,9 +15,10 @@ namespace {
 constexpr int kFormatVersion = 1;
 
 /// Turns the design frame about an axis through a point that stays in place: p_WP = o + R (p_DP - o).
-Pose read_placement(const Value& value) {
+Pose read_placement(const Value& value, Warnings& warnings) {
   const Mapping keys(value, {"axis", "angle", "origin"});
   const Matrix3 R_WD = scene_sections::read_rotation(keys.required("axis"), keys.required("angle"));
+  scene_sections::doubt_angle(keys.required("angle"), warnings);
   const auto origin = keys.optional("origin");
   const Vector3 o = origin ? origin->vector3(kLength) : Vector3(Vector3::Zero());
   return {R_WD, o - R_WD * o};
@@ -26,7 +31,8 @@ void read_header(const Mapping& root, Scene& scene) {
   }
   if (const auto title = root.optional("title")) scene.title = title->text();
   if (const auto gravity = root.optional("gravity")) scene.gravity = gravity->vector3(kAcceleration);
-  if (const auto placement = root.optional("placement")) scene.X_WD = read_placement(*placement);
+  if (const auto placement = root.optional("placement"))
+    scene.X_WD = read_placement(*placement, scene.warnings);
 }
 
 /// What expressions of functions can calculate with.
@@ -81,6 +87,7 @@ Scene load_scene(const std::filesystem::path& path, const std::vector<std::strin
   read("analysis", read_analysis);
   check_motions(scene);
   read("output", read_output);
+  std::ranges::move(doubts_of(scene), std::back_inserter(scene.warnings));
   return scene;
 }
 

@@ -9,32 +9,44 @@
 #include "solver/events.h"
 #include "solver/forward_dynamics.h"
 #include "solver/kinematics.h"
+#include "solver/largest_force.h"
 #include "solver/loads.h"
 
 namespace wishbone {
 namespace {
 
 constexpr double kStandardGravity = 9.80665;  // [m/s^2]
+constexpr int kMostFailures = 50;             // of evaluations at one time
 
 State sized_state(const System& system) {
   return {0, VectorX::Zero(system.nq), VectorX::Zero(system.nv), VectorX::Zero(system.nx)};
 }
 
+/// Of a trial state: what exerts most has driven it beyond all bounds.
+void require_finite_state(const System& system, const State& state, const Workspace& ws) {
+  if (state.q.allFinite() && state.v.allFinite()) return;
+  int i = 0;
+  while (i < system.nv && std::isfinite(state.v[i])) ++i;
+  throw NumericsError(
+      {fmt::format("{} at t = {:.9g} s", i < system.nv ? system.speed_name(i) : "a coordinate", state.t),
+       "this is not a finite number" + largest_force_text(system, state.t, state.x, ws), "",
+       "look for extreme values in the forces that act there"});
+}
+
 }  // namespace
 
-void require_finite(const System& system, double t, const Eigen::Ref<const VectorX>& rates,
-                    const Evaluation<double>& ev) {
+void require_finite(const System& system, double t, const Eigen::Ref<const VectorX>& x,
+                    const Eigen::Ref<const VectorX>& rates, const Evaluation<double>& ev) {
   if (rates.allFinite()) return;
-  for_each_force(system, [&](const auto& element, int index) {
-    if (std::isfinite(ev.element_powers[index])) return;
-    throw NumericsError({fmt::format("{} at t = {:.9g} s", element.name(), t),
-                         "the force is not a finite number", "",
-                         "look for extreme values in its parameters and in the motion of its markers"});
-  });
+  const LargestForce force = find_largest_force(system, t, x, ev);
+  if (!std::isfinite(force.magnitude))
+    throw NumericsError({fmt::format("{} at t = {:.9g} s", force.name, t), "the force is not a finite number",
+                         "", "look for extreme values in its parameters and in the motion of its markers"});
   Eigen::Index i = 0;
   while (std::isfinite(rates[i])) ++i;
   throw NumericsError({fmt::format("{} at t = {:.9g} s", system.speed_name(static_cast<int>(i)), t),
-                       "the acceleration is not a finite number", fmt::format("{}", rates[i]),
+                       "the acceleration is not a finite number" + largest_force_text(system, t, x, ev),
+                       fmt::format("{}", rates[i]),
                        "look for extreme values in the forces that act on this body"});
 }
 
@@ -65,9 +77,23 @@ void FirstOrderSystem::unpack(double t, const Eigen::Ref<const VectorX>& y, Stat
   work = {y[size_ - 2], y[size_ - 1]};
 }
 
+std::string FirstOrderSystem::largest_force() const {
+  return largest_force_text(system_, state_.t, state_.x, ws_);
+}
+
+bool FirstOrderSystem::is_stuck() {
+  const double t = state_.t;
+  if (!(std::abs(t - t_stuck_) <= 1e-9 * std::abs(t))) {
+    t_stuck_ = t;
+    failures_ = 0;
+  }
+  return ++failures_ > kMostFailures;
+}
+
 Work FirstOrderSystem::calc_motion(const State& state) {
+  require_finite_state(system_, state, ws_);
   calc_forward_dynamics(system_, state, ws_);
-  require_finite(system_, state.t, ws_.v_rate, ws_);
+  require_finite(system_, state.t, state.x, ws_.v_rate, ws_);
   if (needs_joint_forces_) calc_joint_forces(system_, ws_);
   return calc_work_rate<double>(system_, state.t, ws_.lambda, ws_);
 }

@@ -14,9 +14,10 @@
 namespace wishbone {
 
 /// Checks the accelerations (or residuals) of an evaluation, one for each speed.
-/// @throws NumericsError naming the first force element that is not finite, else the first speed that is not
-void require_finite(const System& system, double t, const Eigen::Ref<const VectorX>& rates,
-                    const Evaluation<double>& ev);
+/// @param x states of the force elements
+/// @throws NumericsError naming the force element that is not finite, or the largest one and the speed that it drives away
+void require_finite(const System& system, double t, const Eigen::Ref<const VectorX>& x,
+                    const Eigen::Ref<const VectorX>& rates, const Evaluation<double>& ev);
 
 /// The equations of motion as y' = f(t, y) with y = (q, v, x, work), x the states of the force elements and work the two
 /// energies that have crossed the boundary: forms `ode` and `index1`. Also the guard between C++ exceptions and a C
@@ -51,11 +52,17 @@ class FirstOrderSystem {
   /// Absolute tolerances, scaled: `atol`, and for the energies what the weight of the whole mechanism does along it.
   void set_tolerances(double atol, Eigen::Ref<VectorX> tolerances) const;
 
+  /// Of callbacks that evaluate without `unpack`: the time that their failures belong to.
+  void note_time(double t) { state_.t = t; }
+  /// The force element that exerts most at the last evaluation, for messages.
+  std::string largest_force() const;
+
   /// Name of an entry of y for messages.
   virtual std::string name(Eigen::Index i) const;
 
   /// Runs a callback's body: 0 when it went well, 1 (try a smaller step) after a NumericsError or when the body says false, -1
-  /// after any other exception. The exception is kept.
+  /// after any other exception, and after NumericsErrors that come again and again at one time, which no step can pass. The
+  /// exception is kept.
   template <class Body>
   int guard(Body&& body) noexcept {
     try {
@@ -64,7 +71,7 @@ class FirstOrderSystem {
       return 0;
     } catch (const NumericsError&) {
       failure_ = std::current_exception();
-      return 1;
+      return is_stuck() ? -1 : 1;
     } catch (...) {
       failure_ = std::current_exception();
       return -1;
@@ -89,12 +96,17 @@ class FirstOrderSystem {
   Work work_;
 
  private:
+  /// Counts failures at the time of the last evaluation, up to a billionth of it.
+  bool is_stuck();
+
   double weight_;  // of all bodies under standard gravity [N]
   bool needs_joint_forces_;
   std::unique_ptr<Tangents> tangents_;
   std::unique_ptr<Directions> directions_;  // one along every entry of (q, v, x)
   std::unique_ptr<MotionDerivatives> derivatives_;
   std::exception_ptr failure_;
+  double t_stuck_ = -1;  // of the first of the failures that are counted
+  int failures_ = 0;
 };
 
 }  // namespace wishbone

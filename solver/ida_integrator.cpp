@@ -103,9 +103,11 @@ void IdaIntegrator::calc_residual(double t, N_Vector y, N_Vector y_rate, N_Vecto
   ++ws.work.inverse_dynamics;
   count_forces(equations_.system(), ws.work);
   residual_->evaluation().memory = ws.memory;
+  equations_.note_time(t);
   residual_->calc(t, N_VGetArrayPointer(y), N_VGetArrayPointer(y_rate), N_VGetArrayPointer(r));
   const System& system = equations_.system();
-  require_finite(system, t, sundials::map(r).segment(system.nq, system.nv), residual_->evaluation());
+  require_finite(system, t, sundials::map(y).segment(system.nq + system.nv, system.nx),
+                 sundials::map(r).segment(system.nq, system.nv), residual_->evaluation());
 }
 
 int IdaIntegrator::residual(realtype t, N_Vector y, N_Vector y_rate, N_Vector r, void* self) {

@@ -19,7 +19,8 @@ void throw_integrator_failure(FirstOrderSystem& equations, const std::string& in
   blame.head(equations.size() - 2).cwiseAbs().maxCoeff(&worst);
   throw NumericsError(
       {fmt::format("t = {:.9g} s: {}", t, equations.name(worst)),
-       fmt::format("{} gave up ({}); this coordinate had the largest share in the error", integrator, flag),
+       fmt::format("{} gave up ({}); this coordinate had the largest share in the error{}", integrator, flag,
+                   equations.largest_force()),
        "",
        "loosen analysis.rtol and analysis.atol, or look for a discontinuity or an extreme stiffness there"});
 }

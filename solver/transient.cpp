@@ -2,13 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <optional>
 
 #include "core/error.h"
 #include "solver/events.h"
 #include "solver/forward_dynamics.h"
 #include "solver/kinematics.h"
+#include "solver/largest_force.h"
 #include "solver/loads.h"
+#include "solver/run_check.h"
 
 namespace wishbone {
 namespace {
@@ -34,12 +39,15 @@ class Run {
 
   void start(TransientSummary& summary) {
     summary.integrator = resolve(options_.integrator, system_);
+    summary.warnings = check_prescribed_motions(system_, options_.duration, summary.integrator);
     summary.assembly = assemble(system_, state_, ws_);
     update_positions<double>(system_, state_.t, state_.q, ws_);
     update_markers<double>(system_, ws_);
     initialize_segments(system_, ws_);
+    std::ranges::move(check_tires(system_, state_, ws_), std::back_inserter(summary.warnings));
     integrator_ = make_integrator(system_, summary.integrator, ws_);
     integrator_->restart(state_, work_);
+    check_.emplace(system_, summary.integrator);
     emit();
   }
 
@@ -52,6 +60,7 @@ class Run {
         summary.t_end = t;
         ++steps_;
         watch_singular_positions(t);
+        check_->note_step(state_, ws_);
         emit_until(t);
         check_limits(summary.integrator, t);
         check_progress(t);
@@ -69,6 +78,7 @@ class Run {
   void report(TransientSummary& summary) const {
     summary.singular_passages = watch_.passages();
     summary.statistics = integrator_ ? integrator_->statistics() : Statistics{};
+    if (check_) std::ranges::move(check_->warnings(), std::back_inserter(summary.warnings));
   }
 
  private:
@@ -76,6 +86,7 @@ class Run {
 
   void emit() {
     output_(state_, work_);
+    check_->observe(state_, work_, ws_);
     ++next_output_;
   }
 
@@ -167,9 +178,11 @@ class Run {
   void check_progress(double t) {
     if (steps_ % kPatience != 0) return;
     if (t - t_patience_ < 1e-9 * options_.duration)
-      throw NumericsError({fmt::format("t = {:.9g} s", t), "the steps have become too small to go on",
-                           fmt::format("{:g} s for the last {} steps", t - t_patience_, kPatience),
-                           "look for a singular position, a discontinuity or a shock at this time"});
+      throw NumericsError(
+          {fmt::format("t = {:.9g} s", t),
+           "the steps have become too small to go on" + largest_force_text(system_, t, state_.x, ws_),
+           fmt::format("{:g} s for the last {} steps", t - t_patience_, kPatience),
+           "look for a singular position, a discontinuity or a shock at this time"});
     t_patience_ = t;
   }
 
@@ -187,6 +200,7 @@ class Run {
   std::vector<double> stops_;
   std::unique_ptr<Integrator> integrator_;
   SingularWatch watch_;
+  std::optional<RunCheck> check_;
   bool counts_turns_;
   long next_output_ = 0;
   long steps_ = 0;

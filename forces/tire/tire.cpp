@@ -13,7 +13,7 @@ namespace wishbone {
 
 namespace {
 
-constexpr double kRollingSpeed = 1.0;   // Omega_0 [rad/s]: rolling has a direction above it
+constexpr double kTrailSpin = 1.0;      // Omega_0 [rad/s]: the patch has a leading edge above it
 constexpr double kLeastUpright = 1e-3;  // cos(camber) below which the wheel counts as lying flat
 
 // u' = -w - vr s - |w| (|s| - 1)+ sign(s), s = u/sigma, w the slip velocity. Up to slip 1 the deflection
@@ -77,9 +77,9 @@ Tire::Evaluation<T> Tire::evaluate(const ForceInputT<T>& input) const {
   const UaSlipT<T> s = slip(c, input);
   e.shear = form_ == UaForm::kSmooth ? ua_shear_smooth(parameters_, s, l, e.Fz)
                                      : ua_shear_classic(parameters_, s, l, e.Fz);
-  const T rolling = tanh(c.spin / kRollingSpeed);
-  e.Ty = -parameters_.rolling_resistance * e.Fz * rolling;
-  e.Tz = rolling * e.shear.tz_lateral + e.shear.tz_traction;
+  // Ty = -Kr Fz tanh(v_cir/v_0)
+  e.Ty = -parameters_.rolling_resistance * e.Fz * tanh(c.v_cir / kRollingSpeedFloor);
+  e.Tz = tanh(c.spin / kTrailSpin) * e.shear.tz_lateral + e.shear.tz_traction;
   return e;
 }
 

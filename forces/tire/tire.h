@@ -23,13 +23,19 @@ struct TireOutput {
   Vector3 moment = Vector3::Zero();  ///< (0, Ty, Tz) about P in the contact axes [N m]
 };
 
+/// Speed of rolling below which rolling resistance fades out, so that it has no jump at rest [m/s].
+inline constexpr double kRollingSpeedFloor = 1e-3;
+
 /// A tire on a road: the UA tire law at the one-point contact, as a force element of one marker.
 ///
 ///     F = Fx ux + Fy uy + Fz uz at P,   M_P = Ty uy + Tz uz,
-///     Ty = -Kr Fz tanh(Omega/Omega_0),   Omega_0 = 1 rad/s,
+///     Ty = -Kr Fz tanh(v_cir/v_0),   v_0 = kRollingSpeedFloor = 1 mm/s,
 /// given to the wheel at its centre C as (M_P + (P - C) x F, F). Nothing acts in the air (delta <= 0).
-/// The lateral stress's part of Tz carries the same factor tanh(Omega/Omega_0): rolling backward exchanges
-/// the leading and the trailing edge, and with them the side of the pneumatic trail.
+/// Rolling resistance opposes the rolling, forward and in reverse, with its full moment from some mm/s on: a wheel that coasts
+/// is held back by Kr Fz/rho. Below v_0 it is viscous: a wheel at rest creeps where a slope or a torque pulls with a
+/// fraction f < 1 of Kr Fz, at v_0 atanh(f); a locked wheel, which slides, has none.
+/// The lateral stress's part of Tz carries the factor tanh(Omega/Omega_0), Omega_0 = 1 rad/s: rolling backward exchanges
+/// the leading and the trailing edge, and with them the side of the pneumatic trail; a wheel at rest has neither.
 ///
 /// With `lag` the element has two states, the longitudinal and lateral deflections u and v [m] of the carcass
 /// at the contact,

@@ -440,10 +440,6 @@ constexpr Broken kBrokenScenes[] = {
            "  grip: {type: free, bodies: [ground, {body: beam, frame: tip}]}\n",
            "scene.yaml:23:39: joints.grip.bodies[2]: error: a free joint joins whole bodies\n"
            "  name the body without a node or frame"},
-    Broken{"SpringOfZeroLength", "to: {body: wheel}", "to: {ground: [1, 0, 0]}",
-           "scene.yaml:26:3: springs.coil: error: the spring has zero length in the design pose, so its "
-           "force has no direction\n"
-           "  move one of its ends"},
     Broken{"SpringOnOneBody", "to: {body: wheel}", "to: {body: arm, at: [1, 1, 0]}",
            "scene.yaml:26:3: springs.coil: error: the spring joins a body to itself\n"
            "  name two bodies"},
