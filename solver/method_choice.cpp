@@ -8,13 +8,13 @@
 namespace wishbone {
 namespace {
 
-constexpr int kTrialSteps = 200;  // the second half of them is measured
+constexpr std::size_t kTrialSteps = 200;  // the second half of them is measured
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// Evaluations per simulated second of a method, started at `state`; infinite when it fails.
 double pace_of(const System& system, const IntegratorOptions& options, const State& state, const Work& work,
-               double t_stop, Workspace ws, const std::function<bool(double)>& keep_going) {
+               double t_stop, double most_work, Workspace ws, const std::function<bool(double)>& keep_going) {
   ProgressGuard guard({}, [&](double) { return !keep_going || keep_going(state.t); });
   guard.start(state.t);
   struct Mark {
@@ -24,7 +24,11 @@ double pace_of(const System& system, const IntegratorOptions& options, const Sta
   try {
     const auto integrator = make_integrator(system, options, ws, guard);
     integrator->restart(state, work);
-    while (marks.size() <= kTrialSteps && marks.back().t < t_stop && guard.work() < MethodChoice::kWindow) {
+    const auto goes_on = [&] {
+      const bool few = marks.size() <= kTrialSteps && guard.work() < MethodChoice::kWindow;
+      return marks.back().t < t_stop && (few || guard.work() < most_work);
+    };
+    while (goes_on()) {
       const Integrator::Step step = integrator->step(t_stop);
       guard.accept(step.t);
       marks.push_back({step.t, guard.work()});
@@ -45,6 +49,11 @@ std::string method_text(const IntegratorOptions& options) {
   return fmt::format("{} of order {}", to_string(options.method), options.max_order);
 }
 
+std::string text(const BetterMethod& change) {
+  return fmt::format("{:.9g} s: from {} to {}, {:.3g} times less work", change.t, method_text(change.from),
+                     method_text(change.to), change.gain);
+}
+
 MethodChoice::MethodChoice(const System& system, double duration, const IntegratorOptions& chosen)
     : system_(system), duration_(duration), chosen_(chosen) {}
 
@@ -54,7 +63,7 @@ void MethodChoice::begin_window(double t, double work) {
 }
 
 bool MethodChoice::due(double t, const ProgressGuard& guard) {
-  const double work = guard.work();
+  const double work = work_ = guard.work();
   if (work - window_work_ < kWindow) return false;
   pace_ = (work - window_work_) / (t - window_t_);
   begin_window(t, work);
@@ -80,11 +89,13 @@ std::vector<IntegratorOptions> MethodChoice::others() const {
   return others;
 }
 
-std::optional<BetterMethod> MethodChoice::try_others(const State& state, const Work& work, double t_stop, Workspace ws,
+std::optional<BetterMethod> MethodChoice::try_others(const State& state, const Work& work, double t_stop,
+                                                     Workspace ws,
                                                      const std::function<bool(double)>& keep_going) const {
   std::optional<BetterMethod> best;
   for (const IntegratorOptions& other : others()) {
-    const double gain = pace_ / pace_of(system_, other, state, work, t_stop, ws, keep_going);
+    const double gain =
+        pace_ / pace_of(system_, other, state, work, t_stop, kTrialShare * work_, ws, keep_going);
     const double wanted = other.method == Method::erk ? 1 : kStiff;
     if (gain > wanted && (!best || gain > best->gain)) best = {state.t, chosen_, other, gain};
   }

@@ -41,10 +41,11 @@ void ProgressGuard::accept(double t) {
   const double spent = work_ - patience_work_;
   if (spent < kPatience / limits_.size) return;
   if (t - t_patience_ < limits_.least_progress)
-    throw HopelessRun({fmt::format("t = {:.9g} s", t), "the steps have become too small to go on",
-                       fmt::format("{:g} s in the last {:g} evaluations", t - t_patience_, spent),
-                       "look for a singular position, a discontinuity, a shock or an extreme stiffness at this time, "
-                       "or loosen the tolerances; with analysis.max_steps given the run goes on up to that number"});
+    throw HopelessRun(
+        {fmt::format("t = {:.9g} s", t), "the steps have become too small to go on",
+         fmt::format("{:g} s in the last {:g} evaluations", t - t_patience_, spent),
+         "look for a singular position, a discontinuity, a shock or an extreme stiffness at this time, "
+         "or loosen the tolerances; with analysis.max_steps given the run goes on up to that number"});
   t_patience_ = t;
   patience_work_ = work_;
 }

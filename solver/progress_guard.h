@@ -28,8 +28,9 @@ class ProgressGuard {
   static constexpr double kLeastProgress = 1e-4;
 
   struct Limits {
-    double size = 1;            ///< speeds and closure rows
-    double least_progress = 0;  ///< [s] in kPatience / size evaluations; 0: the run may be as slow as it likes
+    double size = 1;  ///< speeds and closure rows
+    double least_progress =
+        0;  ///< [s] in kPatience / size evaluations; 0: the run may be as slow as it likes
   };
   ProgressGuard(Limits limits, std::function<bool(double)> keep_going);
 
