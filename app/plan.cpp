@@ -9,8 +9,8 @@
 #include "app/body_modes_text.h"
 #include "app/closure_text.h"
 #include "app/command.h"
-#include "app/warnings.h"
 #include "app/text_table.h"
+#include "app/warnings.h"
 #include "models/scene_loader.h"
 
 namespace wishbone {
@@ -59,7 +59,8 @@ void print_lines(const Scene& scene, const Plan& plan) {
              plan.closure_rows, plan.rank, plan.redundant_rows.size());
   fmt::print("mobility              {:5d}   speeds minus rank\n", plan.mobility);
   fmt::print("force elements        {:5d}\n", plan.force_elements);
-  fmt::print("integration           {} by {}\n", plan.form, plan.integrator);
+  fmt::print("integration           {} by {}{}\n", plan.form, plan.integrator,
+             plan.changes_method ? ", and by another method where that takes less work" : "");
   print_joints(plan.joints);
   print_closures(plan);
   print_list("redundant closure rows, left out", plan.redundant_rows);
@@ -125,6 +126,7 @@ void print_json(const Plan& plan) {
                                    {"force_elements", plan.force_elements},
                                    {"form", plan.form},
                                    {"integrator", plan.integrator},
+                                   {"changes_method", plan.changes_method},
                                    {"tree", plan.tree},
                                    {"modes", json_of(plan.modes)},
                                    {"identified", plan.identified},

@@ -97,6 +97,8 @@ void print_lines(const Options& options, const RunResult& result) {
              to_string(s.integrator.form), to_string(s.integrator.method));
   for (const auto& [name, value] : s.statistics) fmt::print("  {}: {}\n", name, value);
   if (s.restarts > 0) fmt::print("  restarts at events: {}\n", s.restarts);
+  for (const BetterMethod& change : s.method_changes)
+    fmt::print("  method changed at t = {}\n", wishbone::text(change));
   for (const std::string& row : result.redundant_rows)
     fmt::print("  redundant closure row left out: {}\n", row);
   for (const std::string& line : assembly_lines(s.assembly)) fmt::print("  {}\n", line);
@@ -117,6 +119,12 @@ void print_json(const Options& options, const RunResult& result) {
                              {"integrator", to_string(s.integrator.method)}};
   for (const auto& [name, value] : s.statistics) out["statistics"][name] = value;
   out["restarts"] = s.restarts;
+  out["method_changes"] = nlohmann::ordered_json::array();
+  for (const BetterMethod& change : s.method_changes)
+    out["method_changes"].push_back({{"t", change.t},
+                                     {"from", method_text(change.from)},
+                                     {"to", method_text(change.to)},
+                                     {"gain", change.gain}});
   out["redundant_rows"] = result.redundant_rows;
   for (std::size_t c = 0; c < s.assembly.gaps.size(); ++c)
     out["assembly"][s.assembly.gaps[c].name] = json_of(s.assembly.gaps[c], s.assembly.closed[c]);

@@ -121,6 +121,8 @@ Plan make_plan(const Scene& scene, const CompiledScene& compiled) {
   const IntegratorOptions integrator = resolved_options(scene, compiled);
   plan.form = to_string(integrator.form);
   plan.integrator = to_string(integrator.method);
+  plan.changes_method =
+      compiled.transient.integrator.method == Method::automatic && integrator.form != Form::ggl;
   plan.modes = compiled.modes;
   for (const IdentifiedBody& body : compiled.identified) plan.identified.push_back(identified_line(body));
   list_parts(system, plan);

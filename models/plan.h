@@ -30,6 +30,7 @@ struct Plan {
   double displacement = 0;                  ///< largest change of a coordinate by assembling [m, rad]
   int force_elements = 0;
   std::string form, integrator;
+  bool changes_method = false;          ///< where another takes less work
   std::vector<std::string> tree;        ///< one line a body: joint, parent, freedoms
   std::vector<BodyModes> modes;         ///< what the flexible bodies deform in
   std::vector<std::string> identified;  ///< one line a body whose modes were identified: from what

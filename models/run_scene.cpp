@@ -45,6 +45,12 @@ std::vector<std::string> passage_lines(const RunResult& result) {
   return lines;
 }
 
+std::vector<std::string> change_lines(const std::vector<BetterMethod>& changes) {
+  std::vector<std::string> lines;
+  for (const BetterMethod& change : changes) lines.push_back(text(change));
+  return lines;
+}
+
 std::vector<std::string> warning_lines(const Warnings& warnings) {
   std::vector<std::string> lines;
   for (const Diagnostic& warning : warnings) lines.push_back(warning.warning());
@@ -69,6 +75,7 @@ void record_facts(const Scene& scene, const RunRequest& request, const RunResult
   recorder.set_meta("restarts", static_cast<double>(s.restarts));
   recorder.set_meta("t_end", s.t_end);
   for (const auto& [name, value] : s.statistics) recorder.set_meta("solver_" + name, value);
+  recorder.set_meta("method_changes", change_lines(s.method_changes));
   recorder.set_meta("assembly_gaps", gap_lines(s.assembly));
   recorder.set_meta("singular_passages", passage_lines(result));
   recorder.set_meta("warnings", warning_lines(result.warnings));

@@ -21,7 +21,8 @@ constexpr double kNewtonShare = 0.01;
 
 class CvodeIntegrator final : public Integrator {
  public:
-  CvodeIntegrator(const System& system, const IntegratorOptions& options, Workspace& ws);
+  CvodeIntegrator(const System& system, const IntegratorOptions& options, Workspace& ws,
+                  ProgressGuard& guard);
 
   void restart(const State& state, const Work& work) override;
   Step step(double t_stop) override;
@@ -63,9 +64,10 @@ class CvodeIntegrator final : public Integrator {
   Counts before_;  // of the runs before the last restart
 };
 
-CvodeIntegrator::CvodeIntegrator(const System& system, const IntegratorOptions& options, Workspace& ws)
+CvodeIntegrator::CvodeIntegrator(const System& system, const IntegratorOptions& options, Workspace& ws,
+                                 ProgressGuard& guard)
     : options_(options),
-      equations_(make_equations(system, options, ws)),
+      equations_(make_equations(system, options, ws, guard)),
       event_count_(wishbone::event_count(system)),
       y_(sundials::make_vector(equations_->size(), context_)),
       tolerances_(sundials::make_vector(equations_->size(), context_)),
@@ -95,10 +97,12 @@ int CvodeIntegrator::projected_rate(realtype t, N_Vector y, N_Vector y_rate, voi
 int CvodeIntegrator::jacobian(realtype t, N_Vector y, N_Vector /*y_rate*/, SUNMatrix J, void* self, N_Vector,
                               N_Vector, N_Vector) {
   FirstOrderSystem& equations = *static_cast<CvodeIntegrator*>(self)->equations_;
-  return equations.guard([&] {
-    const Eigen::Index n = equations.size();
-    equations.calc_jacobian(t, sundials::map(y), Eigen::Map<MatrixX>(SUNDenseMatrix_Data(J), n, n));
-  });
+  return equations.guard(
+      [&] {
+        const Eigen::Index n = equations.size();
+        equations.calc_jacobian(t, sundials::map(y), Eigen::Map<MatrixX>(SUNDenseMatrix_Data(J), n, n));
+      },
+      equations.jacobian_cost());
 }
 
 int CvodeIntegrator::project(realtype t, N_Vector y, N_Vector correction, realtype /*eps*/, N_Vector /*err*/,
@@ -141,6 +145,8 @@ void CvodeIntegrator::create(const State& state, const Work& work) {
     CVodeSetLinearSolver(cvode, linear_.get(), matrix_.get());
     CVodeSetJacFn(cvode, jacobian);
     CVodeSetNonlinConvCoef(cvode, kNewtonShare);
+    CVodeSetStabLimDet(cvode, SUNTRUE);  // orders above 2 are left where vibrations make them unstable
+    if (options_.max_order > 0) CVodeSetMaxOrd(cvode, options_.max_order);
     if (projects) {
       CVodeSetProjFn(cvode, project);
       CVodeSetProjErrEst(cvode, SUNFALSE);
@@ -215,8 +221,8 @@ Statistics CvodeIntegrator::statistics() const {
 }  // namespace
 
 std::unique_ptr<Integrator> make_cvode_integrator(const System& system, const IntegratorOptions& options,
-                                                  Workspace& ws) {
-  return std::make_unique<CvodeIntegrator>(system, options, ws);
+                                                  Workspace& ws, ProgressGuard& guard) {
+  return std::make_unique<CvodeIntegrator>(system, options, ws, guard);
 }
 
 }  // namespace wishbone

@@ -5,9 +5,9 @@
 namespace wishbone {
 
 std::unique_ptr<FirstOrderSystem> make_equations(const System& system, const IntegratorOptions& options,
-                                                 Workspace& ws) {
-  if (options.form == Form::partition) return std::make_unique<PartitionedSystem>(system, ws);
-  return std::make_unique<FirstOrderSystem>(system, ws);
+                                                 Workspace& ws, ProgressGuard& guard) {
+  if (options.form == Form::partition) return std::make_unique<PartitionedSystem>(system, ws, guard);
+  return std::make_unique<FirstOrderSystem>(system, ws, guard);
 }
 
 }  // namespace wishbone

@@ -9,6 +9,6 @@ namespace wishbone {
 
 /// The equations of motion in the form that the options ask for (ode, index1 or partition).
 std::unique_ptr<FirstOrderSystem> make_equations(const System& system, const IntegratorOptions& options,
-                                                 Workspace& ws);
+                                                 Workspace& ws, ProgressGuard& guard);
 
 }  // namespace wishbone

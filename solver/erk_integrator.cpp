@@ -38,7 +38,7 @@ bool shorter_step_helps(int flag) {
 
 class ErkIntegrator final : public Integrator {
  public:
-  ErkIntegrator(const System& system, const IntegratorOptions& options, Workspace& ws);
+  ErkIntegrator(const System& system, const IntegratorOptions& options, Workspace& ws, ProgressGuard& guard);
 
   void restart(const State& state, const Work& work) override;
   Step step(double t_stop) override;
@@ -80,9 +80,10 @@ class ErkIntegrator final : public Integrator {
   Counts before_;  // of the runs before the last restart
 };
 
-ErkIntegrator::ErkIntegrator(const System& system, const IntegratorOptions& options, Workspace& ws)
+ErkIntegrator::ErkIntegrator(const System& system, const IntegratorOptions& options, Workspace& ws,
+                             ProgressGuard& guard)
     : options_(options),
-      equations_(make_equations(system, options, ws)),
+      equations_(make_equations(system, options, ws, guard)),
       event_count_(wishbone::event_count(system)),
       y_(sundials::make_vector(equations_->size(), context_)),
       tolerances_(sundials::make_vector(equations_->size(), context_)),
@@ -199,8 +200,8 @@ Statistics ErkIntegrator::statistics() const {
 }  // namespace
 
 std::unique_ptr<Integrator> make_erk_integrator(const System& system, const IntegratorOptions& options,
-                                                Workspace& ws) {
-  return std::make_unique<ErkIntegrator>(system, options, ws);
+                                                Workspace& ws, ProgressGuard& guard) {
+  return std::make_unique<ErkIntegrator>(system, options, ws, guard);
 }
 
 }  // namespace wishbone

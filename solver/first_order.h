@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "solver/energy.h"
+#include "solver/progress_guard.h"
 #include "solver/tangents.h"
 #include "solver/workspace.h"
 
@@ -24,7 +25,7 @@ void require_finite(const System& system, double t, const Eigen::Ref<const Vecto
 /// integrator. Other choices of y derive from it.
 class FirstOrderSystem {
  public:
-  FirstOrderSystem(const System& system, Workspace& ws);
+  FirstOrderSystem(const System& system, Workspace& ws, ProgressGuard& guard);
   virtual ~FirstOrderSystem() = default;
 
   Eigen::Index size() const { return size_; }
@@ -56,19 +57,25 @@ class FirstOrderSystem {
   void note_time(double t) { state_.t = t; }
   /// The force element that exerts most at the last evaluation, for messages.
   std::string largest_force() const;
+  /// What calc_jacobian and the factors of its result cost, in evaluations of the rate.
+  double jacobian_cost() const;
 
   /// Name of an entry of y for messages.
   virtual std::string name(Eigen::Index i) const;
 
-  /// Runs a callback's body: 0 when it went well, 1 (try a smaller step) after a NumericsError or when the body says false, -1
-  /// after any other exception, and after NumericsErrors that come again and again at one time, which no step can pass. The
-  /// exception is kept.
+  /// Runs a callback's body, counted as `evaluations`: 0 when it went well, 1 (try a smaller step) after a NumericsError or when the
+  /// body says false, -1 after any other exception, where the run is hopeless, and after NumericsErrors that come again and again at
+  /// one time, which no step can pass. The exception is kept.
   template <class Body>
-  int guard(Body&& body) noexcept {
+  int guard(Body&& body, double evaluations = 1) noexcept {
     try {
+      progress_.count(evaluations);
       if constexpr (std::is_same_v<std::invoke_result_t<Body>, bool>) return body() ? 0 : 1;
       body();
       return 0;
+    } catch (const HopelessRun&) {
+      failure_ = std::current_exception();
+      return -1;
     } catch (const NumericsError&) {
       failure_ = std::current_exception();
       return is_stuck() ? -1 : 1;
@@ -82,7 +89,7 @@ class FirstOrderSystem {
 
  protected:
   /// With y of another size than (q, v, x, work).
-  FirstOrderSystem(const System& system, Workspace& ws, Eigen::Index size);
+  FirstOrderSystem(const System& system, Workspace& ws, ProgressGuard& guard, Eigen::Index size);
 
   /// v', x' and work' at a state, left in the workspace; checked to be finite.
   Work calc_motion(const State& state);
@@ -91,6 +98,7 @@ class FirstOrderSystem {
 
   const System& system_;
   Workspace& ws_;
+  ProgressGuard& progress_;
   Eigen::Index size_;
   State state_;  // scratch of the callbacks
   Work work_;

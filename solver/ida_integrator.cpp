@@ -29,7 +29,7 @@ constexpr double kMultiplierTolerance = 1e3;
 
 class IdaIntegrator final : public Integrator {
  public:
-  IdaIntegrator(const System& system, const IntegratorOptions& options, Workspace& ws);
+  IdaIntegrator(const System& system, const IntegratorOptions& options, Workspace& ws, ProgressGuard& guard);
 
   void restart(const State& state, const Work& work) override;
   Step step(double t_stop) override;
@@ -77,8 +77,9 @@ class IdaIntegrator final : public Integrator {
   Counts before_;  // of the runs before the last restart
 };
 
-IdaIntegrator::IdaIntegrator(const System& system, const IntegratorOptions& options, Workspace& ws)
-    : options_(options), equations_(system, ws), event_count_(wishbone::event_count(system)) {}
+IdaIntegrator::IdaIntegrator(const System& system, const IntegratorOptions& options, Workspace& ws,
+                             ProgressGuard& guard)
+    : options_(options), equations_(system, ws, guard), event_count_(wishbone::event_count(system)) {}
 
 /// Sizes everything for the rows that are kept; their number and choice can change between restarts.
 void IdaIntegrator::choose_rows() {
@@ -129,7 +130,8 @@ void IdaIntegrator::calc_jacobian(double t, double c, N_Vector y, N_Vector y_rat
 int IdaIntegrator::jacobian(realtype t, realtype c, N_Vector y, N_Vector y_rate, N_Vector, SUNMatrix J,
                             void* self, N_Vector, N_Vector, N_Vector) {
   auto* integrator = static_cast<IdaIntegrator*>(self);
-  return integrator->equations_.guard([&] { integrator->calc_jacobian(t, c, y, y_rate, J); });
+  return integrator->equations_.guard([&] { integrator->calc_jacobian(t, c, y, y_rate, J); },
+                                      integrator->equations_.jacobian_cost());
 }
 
 int IdaIntegrator::events(realtype t, N_Vector y, N_Vector /*y_rate*/, realtype* g, void* self) {
@@ -262,8 +264,8 @@ Statistics IdaIntegrator::statistics() const {
 }  // namespace
 
 std::unique_ptr<Integrator> make_ida_integrator(const System& system, const IntegratorOptions& options,
-                                                Workspace& ws) {
-  return std::make_unique<IdaIntegrator>(system, options, ws);
+                                                Workspace& ws, ProgressGuard& guard) {
+  return std::make_unique<IdaIntegrator>(system, options, ws, guard);
 }
 
 }  // namespace wishbone

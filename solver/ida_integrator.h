@@ -11,6 +11,6 @@ namespace wishbone {
 /// The multipliers enter as derivatives of their integrals, which makes the index 1: IDA can start and step it (as plain
 /// unknowns it fails at the first step). lambda = Lambda'. [Gear, Gupta & Leimkuhler 1985; theory.md 2]
 std::unique_ptr<Integrator> make_ida_integrator(const System& system, const IntegratorOptions& options,
-                                                Workspace& ws);
+                                                Workspace& ws, ProgressGuard& guard);
 
 }  // namespace wishbone

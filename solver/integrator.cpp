@@ -53,10 +53,10 @@ IntegratorOptions resolve(const IntegratorOptions& options, const System& system
 }
 
 std::unique_ptr<Integrator> make_integrator(const System& system, const IntegratorOptions& options,
-                                            Workspace& ws) {
-  if (options.form == Form::ggl) return make_ida_integrator(system, options, ws);
-  if (options.method == Method::erk) return make_erk_integrator(system, options, ws);
-  return make_cvode_integrator(system, options, ws);
+                                            Workspace& ws, ProgressGuard& guard) {
+  if (options.form == Form::ggl) return make_ida_integrator(system, options, ws, guard);
+  if (options.method == Method::erk) return make_erk_integrator(system, options, ws, guard);
+  return make_cvode_integrator(system, options, ws, guard);
 }
 
 }  // namespace wishbone

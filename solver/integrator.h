@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solver/energy.h"
+#include "solver/progress_guard.h"
 #include "solver/workspace.h"
 
 namespace wishbone {
@@ -35,6 +36,7 @@ struct IntegratorOptions {
   double atol = 1e-8;   ///< absolute tolerance [m, rad, m/s, rad/s, m sqrt(kg) ...]
   double max_step = 0;  ///< [s]; 0: no limit
   long max_steps = 0;   ///< in total; 0: no limit
+  int max_order = 0;    ///< of bdf; 0: 5
 };
 
 /// Name and value, in a fixed order.
@@ -77,8 +79,9 @@ class Integrator {
 IntegratorOptions resolve(const IntegratorOptions& options, const System& system);
 
 /// @param options resolved
+/// @param guard counts what the integrator evaluates
 std::unique_ptr<Integrator> make_integrator(const System& system, const IntegratorOptions& options,
-                                            Workspace& ws);
+                                            Workspace& ws, ProgressGuard& guard);
 
 const char* to_string(Form form);
 const char* to_string(Method method);

@@ -9,6 +9,8 @@ void throw_integrator_failure(FirstOrderSystem& equations, const std::string& in
   if (const std::exception_ptr failure = equations.take_failure()) {
     try {
       std::rethrow_exception(failure);
+    } catch (const HopelessRun&) {
+      throw;  // says when
     } catch (const NumericsError& error) {
       Diagnostic d = error.diagnostic();
       d.where = fmt::format("t = {:.9g} s: {}", t, d.where);

@@ -25,8 +25,8 @@ constexpr double kFarthestTurn = 2.0;    // from the reference orientation [rad]
 
 }  // namespace
 
-PartitionedSystem::PartitionedSystem(const System& system, Workspace& ws)
-    : FirstOrderSystem(system, ws,
+PartitionedSystem::PartitionedSystem(const System& system, Workspace& ws, ProgressGuard& guard)
+    : FirstOrderSystem(system, ws, guard,
                        2 * (system.nv - static_cast<Eigen::Index>(ws.closure.kept.size())) + system.nx + 2),
       n_dependent_(static_cast<int>(ws.closure.kept.size())),
       n_independent_(system.nv - n_dependent_),

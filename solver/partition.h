@@ -18,7 +18,7 @@ namespace wishbone {
 /// outlived and the integration starts anew with another.
 class PartitionedSystem final : public FirstOrderSystem {
  public:
-  PartitionedSystem(const System& system, Workspace& ws);
+  PartitionedSystem(const System& system, Workspace& ws, ProgressGuard& guard);
 
   void pack(const State& state, const Work& work, Eigen::Ref<VectorX> y) override;
   void unpack(double t, const Eigen::Ref<const VectorX>& y, State& state, Work& work) override;

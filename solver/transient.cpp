@@ -18,19 +18,33 @@
 namespace wishbone {
 namespace {
 
-constexpr long kPatience = 10'000;  // steps between two looks at the progress
 /// A redundant row that is open by more follows from no others: the closures contradict each other [m, rad].
 constexpr double kContradiction = 1e-6;
+
+/// Sums by name.
+void add(const Statistics& part, Statistics& total) {
+  for (const auto& [name, value] : part) {
+    const auto known =
+        std::find_if(total.begin(), total.end(), [&](const auto& entry) { return entry.first == name; });
+    if (known == total.end())
+      total.emplace_back(name, value);
+    else
+      known->second += value;
+  }
+}
 
 /// One run: the clock of outputs, the list of stops, and the integrator between them.
 class Run {
  public:
-  Run(const System& system, State state, const TransientOptions& options, Workspace& ws, const Output& output)
+  Run(const System& system, State state, const TransientOptions& options, Workspace& ws, const Output& output,
+      const std::function<bool(double)>& keep_going)
       : system_(system),
         options_(options),
         ws_(ws),
         output_(output),
+        keep_going_(keep_going),
         state_(std::move(state)),
+        guard_(limits(system, options), keep_going),
         counts_turns_(counts_turns(system)) {
     stops_ = system.stop_times();
     std::erase_if(stops_, [&](double t) { return t <= state_.t || t >= options.duration; });
@@ -45,13 +59,16 @@ class Run {
     update_markers<double>(system_, ws_);
     initialize_segments(system_, ws_);
     std::ranges::move(check_tires(system_, state_, ws_), std::back_inserter(summary.warnings));
-    integrator_ = make_integrator(system_, summary.integrator, ws_);
+    method_ = summary.integrator;
+    choice_ = std::make_unique<MethodChoice>(system_, options_.duration, method_);
+    guard_.start(state_.t);
+    integrator_ = make_integrator(system_, method_, ws_, guard_);
     integrator_->restart(state_, work_);
     check_.emplace(system_, summary.integrator);
     emit();
   }
 
-  void advance(const std::function<bool(double)>& keep_going, TransientSummary& summary) {
+  void advance(TransientSummary& summary) {
     for (const double stop : stops_) {
       double t = state_.t;
       while (t < stop) {
@@ -62,11 +79,12 @@ class Run {
         watch_singular_positions(t);
         check_->note_step(state_, ws_);
         emit_until(t);
-        check_limits(summary.integrator, t);
-        check_progress(t);
-        if (keep_going && t < options_.duration && !keep_going(t)) return interrupt(summary, t);
+        check_limits(t);
+        guard_.accept(t);
+        if (keep_going_ && t < options_.duration && !keep_going_(t)) throw Interrupted{};
         if (!step.events.empty()) restart(t, summary, step.events);
         if (t < stop) accept(t, summary);
+        if (t < stop && choice_->due(t, guard_)) compare_methods(t, stop, summary);
       }
       if (stop < options_.duration) restart(stop, summary);
       state_.t = stop;
@@ -77,11 +95,25 @@ class Run {
 
   void report(TransientSummary& summary) const {
     summary.singular_passages = watch_.passages();
-    summary.statistics = integrator_ ? integrator_->statistics() : Statistics{};
+    summary.statistics = past_statistics_;
+    if (integrator_) add(integrator_->statistics(), summary.statistics);
+    if (better_) summary.warnings.push_back(slow_method(*better_));
     if (check_) std::ranges::move(check_->warnings(), std::back_inserter(summary.warnings));
   }
 
+  /// The force that exerts most is where to look first.
+  Diagnostic with_largest_force(const HopelessRun& error) const {
+    Diagnostic d = error.diagnostic();
+    d.what += largest_force_text(system_, state_.t, state_.x, ws_);
+    return d;
+  }
+
  private:
+  static ProgressGuard::Limits limits(const System& system, const TransientOptions& options) {
+    const double least = std::min(ProgressGuard::kLeastProgress * options.duration, options.interval);
+    return {double(system.nv + system.n_rows), options.integrator.max_steps > 0 ? 0 : least};
+  }
+
   double output_time(long k) const { return static_cast<double>(k) * options_.interval; }
 
   void emit() {
@@ -168,43 +200,61 @@ class Run {
          "look for a prescribed motion that the mechanism cannot follow, or a joint out of line"});
   }
 
-  void check_limits(const IntegratorOptions& options, double t) const {
+  /// Goes on with another method where that takes less work; one that was asked for is kept, and the warning tells.
+  void compare_methods(double t, double stop, TransientSummary& summary) {
+    const bool free = options_.integrator.method == Method::automatic;
+    if (method_.form == Form::ggl || (!free && better_)) return;
+    interpolate(t);
+    const auto better = choice_->try_others(state_, work_, stop, ws_, keep_going_);
+    if (!better) return;
+    // an order within the method that was asked for is free too
+    if (!free && better->to.method != method_.method) {
+      better_ = better;
+      return;
+    }
+    summary.method_changes.push_back(*better);
+    method_ = better->to;
+    add(integrator_->statistics(), past_statistics_);
+    integrator_ = make_integrator(system_, method_, ws_, guard_);
+    integrator_->restart(state_, work_);
+    choice_->change(method_, t, guard_);
+  }
+
+  static Diagnostic slow_method(const BetterMethod& better) {
+    return {fmt::format("analysis.integrator, t = {:.9g} s", better.t),
+            fmt::format("{} took {:.3g} times the work of {} where both were tried", method_text(better.from),
+                        better.gain, method_text(better.to)),
+            "",
+            fmt::format("give integrator {}, or auto, which changes the method by itself",
+                        to_string(better.to.method))};
+  }
+
+  void check_limits(double t) const {
+    const IntegratorOptions& options = options_.integrator;
     if (options.max_steps <= 0 || steps_ < options.max_steps) return;
     throw NumericsError({fmt::format("t = {:.9g} s", t), "the allowed number of steps is used up",
                          std::to_string(steps_), "raise analysis.max_steps or loosen the tolerances"});
-  }
-
-  /// Steps that shrink for ever reach no end: a rate at which the run would take more than 1e13 steps is a failure.
-  void check_progress(double t) {
-    if (steps_ % kPatience != 0) return;
-    if (t - t_patience_ < 1e-9 * options_.duration)
-      throw NumericsError(
-          {fmt::format("t = {:.9g} s", t),
-           "the steps have become too small to go on" + largest_force_text(system_, t, state_.x, ws_),
-           fmt::format("{:g} s for the last {} steps", t - t_patience_, kPatience),
-           "look for a singular position, a discontinuity or a shock at this time"});
-    t_patience_ = t;
-  }
-
-  void interrupt(TransientSummary& summary, double t) {
-    summary.status = TransientSummary::Status::interrupted;
-    summary.message = fmt::format("interrupted at t = {:.9g} s", t);
   }
 
   const System& system_;
   const TransientOptions& options_;
   Workspace& ws_;
   const Output& output_;
+  const std::function<bool(double)>& keep_going_;
   State state_;
   Work work_;
   std::vector<double> stops_;
+  ProgressGuard guard_;
+  IntegratorOptions method_;  // in use
+  std::unique_ptr<MethodChoice> choice_;
   std::unique_ptr<Integrator> integrator_;
+  Statistics past_statistics_;          // of the methods that were left
+  std::optional<BetterMethod> better_;  // than the method that was asked for
   SingularWatch watch_;
   std::optional<RunCheck> check_;
   bool counts_turns_;
   long next_output_ = 0;
   long steps_ = 0;
-  double t_patience_ = 0;
 };
 
 }  // namespace
@@ -213,10 +263,16 @@ TransientSummary run_transient(const System& system, State state, const Transien
                                Workspace& ws, const Output& output,
                                const std::function<bool(double)>& keep_going) {
   TransientSummary summary;
-  Run run(system, std::move(state), options, ws, output);
+  Run run(system, std::move(state), options, ws, output, keep_going);
   try {
     run.start(summary);
-    run.advance(keep_going, summary);
+    run.advance(summary);
+  } catch (const Interrupted&) {
+    summary.status = TransientSummary::Status::interrupted;
+    summary.message = fmt::format("interrupted at t = {:.9g} s", summary.t_end);
+  } catch (const HopelessRun& error) {
+    summary.status = TransientSummary::Status::failed;
+    summary.message = run.with_largest_force(error).text();
   } catch (const NumericsError& error) {
     summary.status = TransientSummary::Status::failed;
     summary.message = error.what();

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "solver/assembly.h"
 #include "solver/integrator.h"
+#include "solver/method_choice.h"
 #include "solver/singular_watch.h"
 
 namespace wishbone {
@@ -23,7 +24,8 @@ struct TransientSummary {
   double t_end = 0;              ///< time reached [s]
   IntegratorOptions integrator;  ///< as resolved
   AssemblyReport assembly;
-  Statistics statistics;
+  Statistics statistics;                     ///< of all methods together
+  std::vector<BetterMethod> method_changes;  ///< by integrator `auto`, where another took less work
   long restarts = 0;  ///< of the integrator at events, kinks of prescribed motions and changes of variables
   std::vector<SingularPassage> singular_passages;
   Warnings warnings;  ///< what should be doubted of the results
@@ -33,8 +35,10 @@ struct TransientSummary {
 using Output = std::function<void(const State&, const Work&)>;
 
 /// Assembles the initial state and integrates the equations of motion, calling `output` at every multiple of the interval.
-/// Stops and restarts the integrator at kinks of prescribed motions and at road edges. `keep_going` is asked after every
-/// step; false interrupts the run.
+/// Stops and restarts the integrator at kinks of prescribed motions and at road edges. `keep_going` is asked, with the
+/// time reached, after every step and now and then within one; false interrupts the run. Where the integrator is `auto`
+/// the method changes when another takes less work (solver/method_choice.h); work without progress ends the run
+/// (solver/progress_guard.h).
 /// @throws InputError when the state cannot be assembled; numerical failure comes back in the summary, after all output
 ///   that was computed
 TransientSummary run_transient(const System& system, State state, const TransientOptions& options,

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <functional>
+
+#include "core/error.h"
+
+namespace wishbone {
+
+/// Thrown out of an evaluation when the user wants the run to end.
+struct Interrupted {};
+
+/// A run that will not come to its end: no smaller step helps.
+class HopelessRun : public NumericsError {
+ public:
+  using NumericsError::NumericsError;
+};
+
+/// Bounds the work of a run and keeps it open to interruption. It is asked before every evaluation that an integrator wants, so
+/// that no loop of an integrator can go on unseen. All limits are counts of evaluations, never clocks: equal runs end equally.
+///
+/// Hopeless is a step that is not accepted within kStepEvaluations, and a run that in kPatience / size evaluations advances by
+/// less than kLeastProgress of its duration and less than an interval of outputs; with an evaluation of about a microsecond
+/// for each unknown it would take days.
+class ProgressGuard {
+ public:
+  static constexpr double kStepEvaluations = 10'000;
+  static constexpr double kPatience = 2e7;  ///< evaluations times speeds and closure rows
+  static constexpr double kLeastProgress = 1e-4;
+
+  struct Limits {
+    double size = 1;  ///< speeds and closure rows
+    double least_progress =
+        0;  ///< [s] in kPatience / size evaluations; 0: the run may be as slow as it likes
+  };
+  ProgressGuard(Limits limits, std::function<bool(double)> keep_going);
+
+  /// From here on progress is measured.
+  void start(double t);
+
+  /// Before an evaluation, or what costs as much as so many.
+  /// @throws Interrupted, HopelessRun
+  void count(double evaluations = 1);
+
+  /// A step was accepted that ends at t.
+  /// @throws HopelessRun
+  void accept(double t);
+
+  /// Evaluations so far.
+  double work() const { return work_; }
+
+ private:
+  Limits limits_;
+  std::function<bool(double)> keep_going_;
+  double t_ = 0;          // of the last accepted step
+  double work_ = 0;       // so far
+  double step_work_ = 0;  // at the last accepted step
+  double asked_work_ = 0;
+  double t_patience_ = 0, patience_work_ = 0;
+};
+
+}  // namespace wishbone
