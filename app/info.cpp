@@ -11,7 +11,7 @@
 #include "app/text_table.h"
 #include "app/universal_file_summary.h"
 #include "core/error.h"
-#include "core/hdf5.h"
+#include "core/hdf5_reader.h"
 #include "identification/formats/modal_file.h"
 #include "identification/formats/mode_file.h"
 #include "identification/formats/uff/uff_reader.h"
@@ -39,10 +39,10 @@ struct Facts {
   std::optional<ModalData> modes;  ///< of a mode file
 };
 
-Facts gather(const hdf5::File& file) {
+Facts gather(const hdf5::FileReader& file) {
   Facts facts;
   for (const std::string& path : file.dataset_paths()) {
-    const hdf5::Dataset dataset = file.open_dataset(path);
+    const hdf5::DatasetReader dataset = file.open_dataset(path);
     DatasetFacts d{path,
                    dataset.text_attribute("units"),
                    dataset.text_attribute("frame"),
@@ -125,11 +125,11 @@ void print_json(const Facts& facts, const Options& options) {
   }
   out["meta"] = json_of_meta(facts.meta);
   out["run"] = json_of_meta(facts.run);
-  fmt::print("{}\n", out.dump(2));
+  fmt::print("{}\n", json_text(out));
 }
 
 void tell_hdf5(const Options& options) {
-  const Facts facts = gather(hdf5::File::open(options.file));
+  const Facts facts = gather(hdf5::FileReader(options.file));
   if (options.json)
     print_json(facts, options);
   else
@@ -139,7 +139,7 @@ void tell_hdf5(const Options& options) {
 void tell_tables(const Options& options) {
   const ModalData data = read_modal_data(options.file);
   if (options.json) {
-    fmt::print("{}\n", nlohmann::ordered_json{{"file", options.file}, {"modal_data", json_of(data)}}.dump(2));
+    fmt::print("{}\n", json_text({{"file", options.file}, {"modal_data", json_of(data)}}));
   } else {
     fmt::print("{}\n", options.file);
     print_modal_data(data);
@@ -151,7 +151,7 @@ void tell_universal_file(const Options& options) {
   if (options.json) {
     nlohmann::ordered_json out = json_of(file);
     out["file"] = options.file;
-    fmt::print("{}\n", out.dump(2));
+    fmt::print("{}\n", json_text(out));
   } else {
     fmt::print("{}\n", options.file);
     print_universal_file(file);

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/hdf5.h"
+#include "core/hdf5_reader.h"
 #include "solver/recorder.h"
 
 namespace wishbone {
@@ -40,7 +40,7 @@ class ResultFile {
 
  private:
   std::string path_;
-  hdf5::File file_;
+  hdf5::FileReader file_;
   VectorX time_;
   std::vector<Signal> signals_;
 };

@@ -1,4 +1,4 @@
-#include "core/hdf5.h"
+#include "core/hdf5_reader.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ TEST(Hdf5, MatricesComeBackAsTheyWere) {
     file.write("/scalar", {}, std::vector<double>{-1.5});
     file.close();
   }
-  const File file = File::open(folder / "a.h5");
+  const FileReader file(folder / "a.h5");
   EXPECT_EQ(file.read_matrix("/modal/mass"), M);
   EXPECT_EQ(file.read_matrix("/modal/vector"), Vector3(7, 8, 9));
   EXPECT_EQ(file.read_matrix("/scalar")(0, 0), -1.5);
@@ -66,8 +66,8 @@ TEST(Hdf5, AttributesComeBackWithTheirType) {
     group.set_attribute("number", 0.2);
     file.close();
   }
-  const File file = File::open(folder / "a.h5");
-  const Group group = file.open_group("/a/b");
+  const FileReader file(folder / "a.h5");
+  const GroupReader group = file.open_group("/a/b");
   EXPECT_EQ(std::get<double>(group.attribute("number")), 0.2);
   EXPECT_EQ(group.text_attribute("text"), "first line\nsecond: 5 µm");
   EXPECT_EQ(group.text_attribute("empty"), "");
@@ -89,7 +89,7 @@ TEST(Hdf5, SeriesGrowByWholeRows) {
     series.append({rows.data(), 6});
     file.close();
   }
-  const Dataset series = File::open(folder / "a.h5").open_dataset("/deep/series");
+  const DatasetReader series = FileReader(folder / "a.h5").open_dataset("/deep/series");
   EXPECT_THAT(series.shape(), ElementsAre(6, 2, 3));
   const std::vector<double> values = series.read();
   EXPECT_EQ(values[29], 29);
@@ -112,16 +112,16 @@ TEST(Hdf5, EqualInputGivesEqualBytes) {
 }
 
 TEST(Hdf5, MissingFilesAreNamed) {
-  EXPECT_THAT(message_of<InputError>([] { File::open("/nowhere/a.h5"); }),
+  EXPECT_THAT(message_of<InputError>([] { FileReader("/nowhere/a.h5"); }),
               AllOf(HasSubstr("/nowhere/a.h5"), HasSubstr("no such file")));
 }
 
 TEST(Hdf5, OtherFilesAreRefused) {
   const TemporaryFolder folder;
   std::ofstream(folder / "scene.yaml") << "scene: 1\n";
-  EXPECT_THAT(message_of<InputError>([&] { File::open(folder / "scene.yaml"); }),
+  EXPECT_THAT(message_of<InputError>([&] { FileReader(folder / "scene.yaml"); }),
               AllOf(HasSubstr("scene.yaml"), HasSubstr("not an HDF5 file")));
-  EXPECT_THAT(message_of<InputError>([&] { File::open(folder / ""); }), HasSubstr("folder"));
+  EXPECT_THAT(message_of<InputError>([&] { FileReader(folder / ""); }), HasSubstr("folder"));
 }
 
 TEST(Hdf5, FilesCutShortAreRefused) {
@@ -132,7 +132,7 @@ TEST(Hdf5, FilesCutShortAreRefused) {
     file.close();
   }
   std::filesystem::resize_file(folder / "a.h5", 2000);
-  EXPECT_THAT(message_of<InputError>([&] { File::open(folder / "a.h5"); }), HasSubstr("truncated"));
+  EXPECT_THAT(message_of<InputError>([&] { FileReader(folder / "a.h5"); }), HasSubstr("truncated"));
 }
 
 TEST(Hdf5, MissingDatasetsAreNamedWithWhatExists) {
@@ -143,7 +143,7 @@ TEST(Hdf5, MissingDatasetsAreNamedWithWhatExists) {
     file.write("/bodies/chassis/velocity", MatrixX::Zero(2, 3));
     file.close();
   }
-  const File file = File::open(folder / "a.h5");
+  const FileReader file(folder / "a.h5");
   EXPECT_THAT(message_of<InputError>([&] { file.open_dataset("/bodies/chassis/positon"); }),
               AllOf(HasSubstr("a.h5:/bodies/chassis/positon"), HasSubstr("no such dataset"),
                     HasSubstr("/bodies/chassis has: position, velocity")));
