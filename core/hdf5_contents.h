@@ -11,11 +11,11 @@
 namespace wishbone::hdf5 {
 
 struct ObjectFacts {
-  bool is_dataset = false;             ///< else a group
-  bool is_numeric = false;             ///< of a dataset: its elements convert to double
-  Shape shape;                         ///< of a dataset
+  bool is_dataset = false;  ///< else a group
+  bool is_numeric = false;  ///< of a dataset: its elements convert to double
+  Shape shape;              ///< of a dataset
   std::map<std::string, Value> attributes;
-  std::set<std::string> others;        ///< attributes that a Value cannot hold
+  std::set<std::string> others;  ///< attributes that a Value cannot hold
 };
 
 /// Every group and dataset by its absolute path, the root "/" among them.

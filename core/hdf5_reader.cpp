@@ -35,7 +35,8 @@ std::uintmax_t size_of_file(const std::string& path) {
   if (!fs::exists(status)) throw InputError({path, "no such file", "", "check the path"});
   if (fs::is_directory(status)) throw InputError({path, "this is a folder, not an HDF5 file", "", ""});
   if (!fs::is_regular_file(status))
-    throw InputError({path, "this is not a file but a device or a pipe", "", "copy what it gives into a file"});
+    throw InputError(
+        {path, "this is not a file but a device or a pipe", "", "copy what it gives into a file"});
   return fs::file_size(path, unknown);
 }
 
@@ -94,8 +95,8 @@ const Value& ObjectReader::attribute(const std::string& name) const {
   const auto found = attributes().find(name);
   if (found != attributes().end()) return found->second;
   throw InputError({fmt::format("{}:{}@{}", file_path(), path_, name),
-                    has_attribute(name) ? "the attribute is neither a number nor text" : "no such attribute", "",
-                    ""});
+                    has_attribute(name) ? "the attribute is neither a number nor text" : "no such attribute",
+                    "", ""});
 }
 
 std::string ObjectReader::text_attribute(const std::string& name) const {
@@ -173,8 +174,9 @@ std::string GroupReader::find(const std::string& path, bool dataset) const {
   const bool more = names.size() > kShown;
   if (more) names.resize(kShown);
   throw InputError({file_path() + ":" + wanted, dataset ? "no such dataset" : "no such group", "",
-                    names.empty() ? parent + " is empty"
-                                  : fmt::format("{} has: {}{}", parent, fmt::join(names, ", "), more ? ", ..." : "")});
+                    names.empty()
+                        ? parent + " is empty"
+                        : fmt::format("{} has: {}{}", parent, fmt::join(names, ", "), more ? ", ..." : "")});
 }
 
 GroupReader GroupReader::open_group(const std::string& path) const {
@@ -199,7 +201,6 @@ MatrixX GroupReader::read_matrix(const std::string& path) const {
       values.data(), rows, columns);
 }
 
-FileReader::FileReader(const std::string& path)
-    : GroupReader(std::make_shared<ReadContents>(path), "/") {}
+FileReader::FileReader(const std::string& path) : GroupReader(std::make_shared<ReadContents>(path), "/") {}
 
 }  // namespace wishbone::hdf5

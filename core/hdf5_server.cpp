@@ -100,7 +100,8 @@ std::vector<Link> links_below(hid_t root, const std::string& where) {
     static_cast<std::vector<Link>*>(out)->push_back({name, info->type == H5L_TYPE_HARD});
     return 0;
   };
-  if (H5Lvisit(root, H5_INDEX_NAME, H5_ITER_INC, note, &links) < 0) fail_reading(where, "cannot list the groups");
+  if (H5Lvisit(root, H5_INDEX_NAME, H5_ITER_INC, note, &links) < 0)
+    fail_reading(where, "cannot list the groups");
   return links;
 }
 
@@ -140,7 +141,8 @@ std::size_t rows_at_a_time(hid_t dataset, const Shape& shape) {
   if (H5Pget_layout(creation.get()) == H5D_CHUNKED)
     H5Pget_chunk(creation.get(), static_cast<int>(chunk.size()), chunk.data());
   double bytes = sizeof(double) * static_cast<double>(std::max<hsize_t>(chunk[0], 1));
-  for (std::size_t i = 1; i < shape.size(); ++i) bytes *= static_cast<double>(std::max<std::size_t>(shape[i], 1));
+  for (std::size_t i = 1; i < shape.size(); ++i)
+    bytes *= static_cast<double>(std::max<std::size_t>(shape[i], 1));
   const double chunks = std::clamp(kBytes / bytes, 1.0, kBytes);
   return static_cast<std::size_t>(std::max<hsize_t>(chunk[0], 1)) * static_cast<std::size_t>(chunks);
 }
@@ -194,7 +196,8 @@ Contents Server::contents() {
     ObjectFacts facts;
     facts.is_dataset = kind == H5I_DATASET;
     if (facts.is_dataset) {
-      const Handle type = opened({H5Dget_type(object.get()), H5Tclose}, place_of(object.get()), "cannot tell the type");
+      const Handle type =
+          opened({H5Dget_type(object.get()), H5Tclose}, place_of(object.get()), "cannot tell the type");
       const Handle space =
           opened({H5Dget_space(object.get()), H5Sclose}, place_of(object.get()), "cannot tell the shape");
       facts.is_numeric = is_number(type.get());
@@ -210,7 +213,8 @@ Contents Server::contents() {
 void Server::send_rows(const std::string& path, std::size_t rows, const IsolatedProcess::Send& send) {
   const Handle dataset = opened({H5Dopen2(file_.get(), names_.at(path).c_str(), H5P_DEFAULT), H5Dclose},
                                 path_ + ":" + path, "cannot open the dataset");
-  const Handle space = opened({H5Dget_space(dataset.get()), H5Sclose}, place_of(dataset.get()), "cannot tell the shape");
+  const Handle space =
+      opened({H5Dget_space(dataset.get()), H5Sclose}, place_of(dataset.get()), "cannot tell the shape");
   const Shape shape = shape_of(space.get());
   check_size(dataset.get(), shape, rows);
   if (shape.empty()) {

@@ -31,7 +31,8 @@ class Server {
 
   std::string path_;
   Handle file_;
-  std::map<std::string, std::string> names_;  ///< paths in the bytes of the file, by what the contents call them
+  std::map<std::string, std::string>
+      names_;  ///< paths in the bytes of the file, by what the contents call them
 };
 
 }  // namespace wishbone::hdf5

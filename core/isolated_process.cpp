@@ -78,13 +78,17 @@ std::size_t address_space() {
   return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
-void limit_memory([[maybe_unused]] std::size_t bytes) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true;  // takes terabytes of address space
+#else
+constexpr bool kSanitized = false;
+#endif
+
+void limit_memory(std::size_t bytes) {
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
-#ifndef __SANITIZE_ADDRESS__  // which itself takes terabytes of address space
   const rlimit limit{address_space() + bytes, RLIM_INFINITY};
-  setrlimit(RLIMIT_AS, &limit);
-#endif
+  if (!kSanitized) setrlimit(RLIMIT_AS, &limit);
 }
 
 /// SIGPROF ends the process once it has used this much processor time from now on; zero: no more limit.
@@ -161,8 +165,9 @@ void answer(std::string_view request, const std::string& subject, const Isolated
 IsolatedProcess::IsolatedProcess(std::string subject, const Limits& limits, const Serve& serve)
     : subject_(std::move(subject)), limits_(limits) {
   const auto refuse = [&](const char* what) {
-    throw NumericsError({subject_, fmt::format("{}: {}", what, std::strerror(errno)), "",
-                         "the file is read in a process of its own; allow this one more processes and open files"});
+    throw NumericsError(
+        {subject_, fmt::format("{}: {}", what, std::strerror(errno)), "",
+         "the file is read in a process of its own; allow this one more processes and open files"});
   };
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) refuse("cannot make a channel");
@@ -253,7 +258,8 @@ void IsolatedProcess::fail() {
     what = "the library that reads it crashed on it";
     value = strsignal(WTERMSIG(status));
   }
-  throw InputError({subject_, "the file is broken: " + what, value, "take an intact copy, or write it again"});
+  throw InputError(
+      {subject_, "the file is broken: " + what, value, "take an intact copy, or write it again"});
 }
 
 void IsolatedProcess::end() {

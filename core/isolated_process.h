@@ -16,9 +16,9 @@ namespace wishbone {
 class IsolatedProcess {
  public:
   struct Limits {
-    double processor_seconds = 1;                          ///< for each request
-    std::size_t memory_bytes = std::size_t{256} << 20;     ///< beyond what this process has now
-    int idle_seconds = 60;                                 ///< without a piece of an answer
+    double processor_seconds = 1;                       ///< for each request
+    std::size_t memory_bytes = std::size_t{256} << 20;  ///< beyond what this process has now
+    int idle_seconds = 60;                              ///< without a piece of an answer
   };
 
   using Send = std::function<void(std::string_view piece)>;

@@ -13,9 +13,7 @@ namespace wishbone {
 class PackedBytes {
  public:
   template <class T>
-  void put(T value)
-    requires(std::is_arithmetic_v<T> || std::is_enum_v<T>)
-  {
+  void put(T value) requires(std::is_arithmetic_v<T> || std::is_enum_v<T>) {
     const std::size_t at = bytes_.size();
     bytes_.resize(at + sizeof value);
     std::memcpy(bytes_.data() + at, &value, sizeof value);
