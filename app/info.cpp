@@ -54,11 +54,13 @@ Facts gather(const hdf5::FileReader& file) {
           texts && (name == "nodes" || name == "rows"))
         d.lists.emplace(name, *texts);
     facts.datasets.push_back(std::move(d));
+    if (path != "/time" || dataset.shape().size() != 1 || !dataset.is_numeric()) continue;
+    const std::vector<double> times = dataset.read();
+    facts.time = Eigen::Map<const VectorX>(times.data(), static_cast<Eigen::Index>(times.size()));
   }
   if (file.contains("/meta")) facts.meta = file.open_group("/meta").attributes();
   if (file.contains("/meta/run")) facts.run = file.open_group("/meta/run").attributes();
   if (is_mode_file(file)) facts.modes = read_mode_file(file);
-  if (file.contains("/time")) facts.time = file.read_matrix("/time");
   return facts;
 }
 

@@ -105,12 +105,21 @@ std::vector<Link> links_below(hid_t root, const std::string& where) {
   return links;
 }
 
+double file_size(hid_t object) {
+  const Handle file(H5Iget_file_id(object), H5Fclose);
+  hsize_t bytes = 0;
+  H5Fget_filesize(file.get(), &bytes);
+  return static_cast<double>(bytes);
+}
+
 /// Bytes that a dataset can hold at most, by what it takes in its file: deflate packs a thousandfold, at most.
 double most_bytes(hid_t dataset) {
   constexpr double kDensest = 1100;
-  const auto stored = static_cast<double>(H5Dget_storage_size(dataset));
   const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
-  if (H5Pget_layout(creation.get()) != H5D_CHUNKED) return stored;
+  const H5D_layout_t layout = H5Pget_layout(creation.get());
+  if (layout == H5D_VIRTUAL) return file_size(dataset);  // shows parts of others
+  const double stored = std::min(static_cast<double>(H5Dget_storage_size(dataset)), file_size(dataset));
+  if (layout != H5D_CHUNKED) return stored;
   const Handle space(H5Dget_space(dataset), H5Sclose);
   std::vector<hsize_t> lengths(shape_of(space.get()).size());
   hsize_t chunks = 0;

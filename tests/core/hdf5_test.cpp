@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -109,6 +110,68 @@ TEST(Hdf5, EqualInputGivesEqualBytes) {
     if (name[0] == 'a') usleep(1'100'000);  // time stamps count seconds
   }
   EXPECT_EQ(bytes(folder / "a.h5"), bytes(folder / "b.h5"));
+}
+
+TEST(Hdf5, TextsThatAreNotUtf8CountAsLatin1) {
+  const TemporaryFolder folder;
+  {
+    File file = File::create(folder / "a.h5");
+    file.set_attribute("units", "m/s\xB2");
+    file.create_group("h\xFClle").set_attribute("names", std::vector<std::string>{"\xE4", "ok"});
+    file.write("h\xFClle/x", MatrixX::Ones(1, 1));
+    file.close();
+  }
+  const FileReader file(folder / "a.h5");
+  EXPECT_EQ(file.text_attribute("units"), "m/s\u00B2");
+  EXPECT_THAT(std::get<std::vector<std::string>>(file.open_group("h\u00FClle").attribute("names")),
+              ElementsAre("\u00E4", "ok"));
+  EXPECT_EQ(file.read_matrix("h\u00FClle/x")(0), 1);
+}
+
+/// Every byte of a small file in turn takes other values: the reader must read or refuse, whatever the library does.
+TEST(Hdf5, FilesWithAnyByteBrokenAreReadOrRefused) {
+  const TemporaryFolder folder;
+  {
+    File file = File::create(folder / "a.h5");
+    file.create_series("/x", {2}).append(std::vector<double>{1, 2, 3, 4});
+    file.set_attribute("text", "x");
+    file.close();
+  }
+  const std::string whole = bytes(folder / "a.h5");
+  int read = 0, refused = 0;
+  for (std::size_t at = 0; at < std::min<std::size_t>(whole.size(), 3000); at += 3) {
+    std::string broken = whole;
+    broken[at] = static_cast<char>(at % 2 == 0 ? ~broken[at] : 0xff);
+    std::ofstream(folder / "b.h5", std::ios::binary) << broken;
+    try {
+      const FileReader file(folder / "b.h5");
+      for (const std::string& path : file.dataset_paths()) file.open_dataset(path).read();
+      ++read;
+    } catch (const InputError& e) {
+      EXPECT_THAT(e.what(), HasSubstr("b.h5")) << "byte " << at;
+      ++refused;
+    }
+  }
+  EXPECT_GT(read, 100);
+  EXPECT_GT(refused, 30);
+}
+
+TEST(Hdf5, DatasetsThatClaimMoreThanTheFileCanHoldAreRefused) {
+  const TemporaryFolder folder;
+  {
+    File file = File::create(folder / "a.h5");
+    file.create_series("/x", {1000, 1000});
+    file.close();
+  }
+  const FileReader file(folder / "a.h5");
+  EXPECT_THAT(message_of<InputError>([&] { file.open_dataset("/x").read_rows(1000); }),
+              HasSubstr("a.h5:/x: error: the dataset claims more numbers than its file can hold"));
+}
+
+TEST(Hdf5, PipesAreRefused) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(mkfifo((folder / "a.h5").c_str(), 0600), 0);
+  EXPECT_THROW(FileReader(folder / "a.h5"), InputError);
 }
 
 TEST(Hdf5, MissingFilesAreNamed) {

@@ -33,10 +33,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kLongest = 2;                       // [s]
-constexpr std::size_t kMostMemory = 512u << 20;      // [bytes]
+constexpr double kLongest = 2;                   // [s]
+constexpr std::size_t kMostMemory = 512u << 20;  // [bytes]
 constexpr std::size_t kMostReaders = 16;
-constexpr unsigned kWallSeconds = 60;                // sleeping forever takes no processor time
+constexpr unsigned kWallSeconds = 60;  // sleeping forever takes no processor time
 
 /// What worker and parent share.
 struct Tally {
@@ -175,8 +175,10 @@ Tally* supervise(Range range) {
       waitpid(worker, &status, 0);
       range.first = tally->seed;
       if (status == 0) continue;
-      fuzz.report(range.first,
-                  WIFSIGNALED(status) ? strsignal(WTERMSIG(status)) : fmt::format("exit {}", WEXITSTATUS(status)), *tally);
+      fuzz.report(
+          range.first,
+          WIFSIGNALED(status) ? strsignal(WTERMSIG(status)) : fmt::format("exit {}", WEXITSTATUS(status)),
+          *tally);
       range.first += range.step;
     }
   }

@@ -99,14 +99,15 @@ Reader universal_files(const fs::path& folder) {
   for (const fs::path& file : files_below(folder, ".uff")) {
     reader.inputs.push_back(input(file, [file] { read_uff(file); }));
     reader.inputs.push_back(input(file, [file] { read_uff_modal_data(file); }));
-}
+  }
   return reader;
 }
 
 Reader tables(const fs::path& folder) {
   Reader reader{"csv", 5, {}};
   const CsvModalFiles files{
-      put(folder / "n.csv", "# frame\nnode,x[mm],y[mm],z,mass[g]\n1,0,0,0.5,10\n2,1e3,0,0,20\n3,0,\"1000\",0,0\n"),
+      put(folder / "n.csv",
+          "# frame\nnode,x[mm],y[mm],z,mass[g]\n1,0,0,0.5,10\n2,1e3,0,0,20\n3,0,\"1000\",0,0\n"),
       put(folder / "f.csv", "mode;frequency;damping[%];modal_mass\n7;17.35;1.5;1\n8;20.66;0;\n"),
       put(folder / "s.csv", "node,axis,mode_7,mode_8\n1,x,1,0.5\n1,-z,-0.25,1e-3\n2,x,1,1\n3,2,0,-1\n")};
   for (const fs::path& file : {files.nodes, files.frequencies, files.shapes})
@@ -121,12 +122,16 @@ Reader tables(const fs::path& folder) {
 Reader matrices(const fs::path& folder) {
   Reader reader{"matrix_market", 4, {}};
   for (const auto& [name, text] : std::vector<std::pair<const char*, std::string>>{
-           {"symmetric", "%%MatrixMarket matrix coordinate real symmetric\n% K\n4 4 6\n1 1 2.5\n2 1 -1.25\n2 2 2.125\n"
-                         "3 2 -1e3\n3 3 4.875e-2\n4 4 0.0625\n"},
-           {"skew", "%%MatrixMarket matrix coordinate integer skew-symmetric\n300 300 4\n2 1 5235\n3 2 -7254\n"
-                    "200 100 123456\n212 2 43567\n"},
+           {"symmetric",
+            "%%MatrixMarket matrix coordinate real symmetric\n% K\n4 4 6\n1 1 2.5\n2 1 -1.25\n2 2 2.125\n"
+            "3 2 -1e3\n3 3 4.875e-2\n4 4 0.0625\n"},
+           {"skew",
+            "%%MatrixMarket matrix coordinate integer skew-symmetric\n300 300 4\n2 1 5235\n3 2 -7254\n"
+            "200 100 123456\n212 2 43567\n"},
            {"general", "%%MatrixMarket matrix coordinate real general\n2 3 3\n1 1 1\n2 3 -1.5\n1 2 7e300\n"},
-           {"array", "%%MatrixMarket matrix array real general\n3 2\n1.537\n-2.125\n0.0125\n4.876e2\n5.987\n6.0123\n"}}) {
+           {"array",
+            "%%MatrixMarket matrix array real general\n3 "
+            "2\n1.537\n-2.125\n0.0125\n4.876e2\n5.987\n6.0123\n"}}) {
     const fs::path file = put(folder / name, text);
     reader.inputs.push_back(input(file, [file] { read_matrix_market(file); }));
   }
@@ -138,10 +143,12 @@ Reader calculix(const fs::path& folder) {
   put(folder / "job.dof", "1.1\n1.2\n1.3\n2.1\n2.2\n2.3\n");
   put(folder / "job.sti", "1 1 2.5e3\n1 4 -2.5e3\n4 4 2.5e3\n2 2 1\n3 3 1\n5 5 1\n6 6 1\n");
   put(folder / "job.mas", "1 1 1.5\n2 2 1.5\n3 3 1.5\n4 4 1.5\n5 5 1.5\n6 6 1.5\n1 4 0.25\n");
-  put(folder / "job.inp", "** beam\n*NODE,NSET=NALL\n1,0.0,0.0,0.0\n2,0.25,0.0,0.0\n*ELEMENT,TYPE=C3D8\n1,1,2,1,2,1,2,1,2\n");
-  put(folder / "job.frd", "    1C\n    2C                         2                                     1\n"
-                          " -1         1 0.00000E+00 0.00000E+00 0.00000E+00\n"
-                          " -1         2 2.50000E-01 0.00000E+00 0.00000E+00\n -3\n 9999\n");
+  put(folder / "job.inp",
+      "** beam\n*NODE,NSET=NALL\n1,0.0,0.0,0.0\n2,0.25,0.0,0.0\n*ELEMENT,TYPE=C3D8\n1,1,2,1,2,1,2,1,2\n");
+  put(folder / "job.frd",
+      "    1C\n    2C                         2                                     1\n"
+      " -1         1 0.00000E+00 0.00000E+00 0.00000E+00\n"
+      " -1         2 2.50000E-01 0.00000E+00 0.00000E+00\n -3\n 9999\n");
   for (const char* name : {"job.dof", "job.sti", "job.mas", "job.inp"})
     reader.inputs.push_back(
         input(folder / name, [folder] { read_calculix_matrices(folder / "job", folder / "job.inp"); }));
@@ -174,9 +181,10 @@ Reader results(const fs::path& folder) {
   Reader reader{"result.h5", 1, {}};
   fs::create_directories(folder);
   {
-    Recorder recorder((folder / "result.h5").string(), {{"/bodies/arm/position", {3}, "m", "world", "where it is", {}},
-                                                        {"/flexible/arm/deflection", {2, 3}, "m", "arm", "", {{"nodes", {"1", "2"}}}},
-                                                        {"/energy", {}, "J", "", "sum", {}}});
+    Recorder recorder((folder / "result.h5").string(),
+                      {{"/bodies/arm/position", {3}, "m", "world", "where it is", {}},
+                       {"/flexible/arm/deflection", {2, 3}, "m", "arm", "", {{"nodes", {"1", "2"}}}},
+                       {"/energy", {}, "J", "", "sum", {}}});
     recorder.set_meta("scene", "bodies: {}");
     recorder.set_meta("steps", 12.0);
     recorder.set_run_meta("host", "here");
