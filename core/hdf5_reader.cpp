@@ -23,7 +23,7 @@ namespace {
 IsolatedProcess::Limits limits_for(std::uintmax_t bytes) {
   constexpr double kSlowest = 10e6;  // [bytes/s]
   IsolatedProcess::Limits limits;
-  limits.processor_seconds += static_cast<double>(bytes) / kSlowest;
+  limits.processor_seconds = 0.5 + static_cast<double>(bytes) / kSlowest;
   limits.memory_bytes += 16 * bytes;
   return limits;
 }

@@ -250,10 +250,10 @@ void IsolatedProcess::fail() {
   if (child_ > 0 && waitpid(child_, &status, 0) != child_) status = 0;
   child_ = -1;
 
-  std::string what = "the program that reads it ended", value;
+  std::string what = "the process that reads it ended", value;
   if (ended.si_pid == 0 || (WIFSIGNALED(status) && WTERMSIG(status) == SIGPROF)) {
-    what = "reading it does not end";
-    value = fmt::format("stopped after {:.2g} s", limits_.processor_seconds);
+    what =
+        fmt::format("reading it does not end within {:.2g} s of processor time", limits_.processor_seconds);
   } else if (WIFSIGNALED(status)) {
     what = "the library that reads it crashed on it";
     value = strsignal(WTERMSIG(status));

@@ -63,17 +63,19 @@ TEST_F(Isolated, HandsErrorsOnAndGoesOn) {
 TEST_F(Isolated, CrashIsAnErrorOfTheInput) {
   for (const char* how : {"crash", "abort"}) {
     IsolatedProcess process("a.h5", {}, echo);
-    EXPECT_THAT(message_of<InputError>([&] { answer(process, how); }), AllOf(HasSubstr("a.h5: error: "), HasSubstr("broken")));
+    EXPECT_THAT(message_of<InputError>([&] { answer(process, how); }),
+                AllOf(HasSubstr("a.h5: error: "), HasSubstr("broken")));
     EXPECT_THROW(answer(process, "one"), InputError) << "and stays one";
   }
 }
 
 TEST_F(Isolated, ProcessThatLeavesIsAnErrorOfTheInput) {
-  EXPECT_THAT(error_of("leave"), HasSubstr("a.h5: error: the file is broken: the program that reads it ended"));
+  EXPECT_THAT(error_of("leave"),
+              HasSubstr("a.h5: error: the file is broken: the process that reads it ended"));
 }
 
 TEST_F(Isolated, EndlessLoopIsStoppedByItsProcessorTime) {
-  EXPECT_THAT(error_of("loop"), HasSubstr("reading it does not end (got stopped after 0.3 s)"));
+  EXPECT_THAT(error_of("loop"), HasSubstr("reading it does not end within 0.3 s of processor time"));
 }
 
 TEST_F(Isolated, SilenceIsStoppedByTheClock) {
