@@ -52,7 +52,7 @@ void print_json(const std::vector<Verdict>& verdicts, const Options& options, lo
                              {"difference", verdict.difference},
                              {"allowed", verdict.allowed},
                              {"time", verdict.time}});
-  fmt::print("{}\n", out.dump(2));
+  fmt::print("{}\n", json_text(out));
 }
 
 /// A rule of the command line that touches no signal is a mistyped one, and the tolerance meant would be lost.

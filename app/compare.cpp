@@ -60,7 +60,7 @@ void print_json(const Comparison& comparison, const Options& options) {
   out["only_in_a"] = comparison.only_in_a;
   out["only_in_b"] = comparison.only_in_b;
   out["incomparable"] = comparison.incomparable;
-  fmt::print("{}\n", out.dump(2));
+  fmt::print("{}\n", json_text(out));
 }
 
 ExitCode run(Options options) {

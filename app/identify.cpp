@@ -11,6 +11,7 @@
 #include "app/identification_html.h"
 #include "app/identification_pictures.h"
 #include "app/identification_text.h"
+#include "app/meta_text.h"
 #include "core/partial_file.h"
 #include "core/yaml.h"
 #include "identification/formats/identification_file.h"
@@ -82,7 +83,7 @@ ExitCode run(const Options& options) {
   const Identification result = within(where, [&] { return identify(loaded.task); });
   write_outputs(options, result);
   if (options.json)
-    fmt::print("{}\n", json_of(result).dump(2));
+    fmt::print("{}\n", json_text(json_of(result)));
   else
     fmt::print("{}\nmodes in {}\n", text_of(result), options.output);
   return kDone;

@@ -11,10 +11,11 @@
 #include "app/text_table.h"
 #include "app/universal_file_summary.h"
 #include "core/error.h"
-#include "core/hdf5.h"
+#include "core/hdf5_reader.h"
 #include "identification/formats/modal_file.h"
 #include "identification/formats/mode_file.h"
 #include "identification/formats/uff/uff_reader.h"
+#include "solver/result_file.h"
 
 namespace wishbone {
 
@@ -39,19 +40,10 @@ struct Facts {
   std::optional<ModalData> modes;  ///< of a mode file
 };
 
-/// Times of the rows that are good: all, unless the run is under way or was killed.
-VectorX good_times(const hdf5::File& file) {
-  const VectorX all = file.read_matrix("/time");
-  if (!file.contains("/meta/rows")) return all;
-  const MatrixX rows = file.read_matrix("/meta/rows");
-  const bool fewer = rows.size() == 1 && rows(0, 0) >= 0 && rows(0, 0) < static_cast<double>(all.size());
-  return fewer ? VectorX(all.head(static_cast<Eigen::Index>(rows(0, 0)))) : all;
-}
-
-Facts gather(const hdf5::File& file) {
+Facts gather(const hdf5::FileReader& file) {
   Facts facts;
   for (const std::string& path : file.dataset_paths()) {
-    const hdf5::Dataset dataset = file.open_dataset(path);
+    const hdf5::DatasetReader dataset = file.open_dataset(path);
     DatasetFacts d{path,
                    dataset.text_attribute("units"),
                    dataset.text_attribute("frame"),
@@ -63,11 +55,13 @@ Facts gather(const hdf5::File& file) {
           texts && (name == "nodes" || name == "rows"))
         d.lists.emplace(name, *texts);
     facts.datasets.push_back(std::move(d));
+    if (path != "/time" || dataset.shape().size() != 1 || !dataset.is_numeric()) continue;
+    const std::vector<double> times = dataset.read_rows(good_rows(file, dataset.shape()[0]));
+    facts.time = Eigen::Map<const VectorX>(times.data(), static_cast<Eigen::Index>(times.size()));
   }
   if (file.contains("/meta")) facts.meta = file.open_group("/meta").attributes();
   if (file.contains("/meta/run")) facts.run = file.open_group("/meta/run").attributes();
   if (is_mode_file(file)) facts.modes = read_mode_file(file);
-  if (file.contains("/time")) facts.time = good_times(file);
   return facts;
 }
 
@@ -134,11 +128,11 @@ void print_json(const Facts& facts, const Options& options) {
   }
   out["meta"] = json_of_meta(facts.meta);
   out["run"] = json_of_meta(facts.run);
-  fmt::print("{}\n", out.dump(2));
+  fmt::print("{}\n", json_text(out));
 }
 
 void tell_hdf5(const Options& options) {
-  const Facts facts = gather(hdf5::File::open(options.file));
+  const Facts facts = gather(hdf5::FileReader(options.file));
   if (options.json)
     print_json(facts, options);
   else
@@ -148,7 +142,7 @@ void tell_hdf5(const Options& options) {
 void tell_tables(const Options& options) {
   const ModalData data = read_modal_data(options.file);
   if (options.json) {
-    fmt::print("{}\n", nlohmann::ordered_json{{"file", options.file}, {"modal_data", json_of(data)}}.dump(2));
+    fmt::print("{}\n", json_text({{"file", options.file}, {"modal_data", json_of(data)}}));
   } else {
     fmt::print("{}\n", options.file);
     print_modal_data(data);
@@ -160,7 +154,7 @@ void tell_universal_file(const Options& options) {
   if (options.json) {
     nlohmann::ordered_json out = json_of(file);
     out["file"] = options.file;
-    fmt::print("{}\n", out.dump(2));
+    fmt::print("{}\n", json_text(out));
   } else {
     fmt::print("{}\n", options.file);
     print_universal_file(file);

@@ -9,6 +9,7 @@
 #include "app/body_modes_text.h"
 #include "app/closure_text.h"
 #include "app/command.h"
+#include "app/meta_text.h"
 #include "app/text_table.h"
 #include "app/warnings.h"
 #include "models/scene_loader.h"
@@ -132,7 +133,7 @@ void print_json(const Plan& plan) {
                                    {"identified", plan.identified},
                                    {"kept", plan.kept},
                                    {"left_out", plan.left_out}};
-  fmt::print("{}\n", out.dump(2));
+  fmt::print("{}\n", json_text(out));
 }
 
 ExitCode run(const Options& options) {

@@ -114,7 +114,7 @@ std::string page_data(const ReportedFile& a, const ReportedFile& b, const Compar
                                 {"plots", plots},
                                 {"pictures", pictures}});
   }
-  std::string text = data.dump();
+  std::string text = json_text(data, -1);
   for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at))
     text.replace(at, 2, "<\\/");
   return text;

@@ -11,6 +11,7 @@
 #include "app/check_output.h"
 #include "app/closure_text.h"
 #include "app/command.h"
+#include "app/meta_text.h"
 #include "app/scene_inputs.h"
 #include "app/warnings.h"
 #include "models/run_scene.h"
@@ -136,7 +137,7 @@ void print_json(const Options& options, const RunResult& result) {
   for (const Diagnostic& warning : result.warnings) out["warnings"].push_back(warning.warning());
   out["cpu_seconds"] = result.cpu_seconds;
   out["wall_seconds"] = result.wall_seconds;
-  fmt::print("{}\n", out.dump(2));
+  fmt::print("{}\n", json_text(out));
 }
 
 ExitCode run(const Options& options) {

@@ -10,6 +10,7 @@
 
 #include "app/meta_text.h"
 #include "app/text_table.h"
+#include "core/utf8.h"
 #include "identification/formats/uff/uff_modes.h"
 #include "identification/formats/uff/uff_text.h"
 

@@ -1,31 +1,19 @@
 #include "core/hdf5.h"
 
 #include <fmt/core.h>
-#include <fmt/ranges.h>
 #include <hdf5.h>
 
-#include <algorithm>
 #include <type_traits>
 #include <utility>
 
 #include "core/error.h"
 #include "core/hdf5_library.h"
-#include "core/input_file.h"
 
 namespace wishbone::hdf5 {
 
 static_assert(std::is_same_v<Handle::Id, hid_t>, "HDF5 1.10 or later has 64-bit identifiers");
 
 namespace {
-
-std::string name_of(hid_t id, ssize_t (*get_name)(hid_t, char*, size_t)) {
-  const ssize_t length = get_name(id, nullptr, 0);
-  if (length <= 0) return {};
-  std::string name(static_cast<std::size_t>(length) + 1, '\0');
-  get_name(id, name.data(), name.size());
-  name.pop_back();
-  return name;
-}
 
 std::string join(const std::string& parent, const std::string& path) {
   if (path.starts_with('/')) return path;
@@ -66,36 +54,6 @@ Shape Dataset::shape() const {
   return shape_of(space.get());
 }
 
-bool Dataset::is_numeric() const {
-  const Handle type(H5Dget_type(id()), H5Tclose);
-  return is_number(type.get());
-}
-
-std::vector<double> Dataset::read() const {
-  const Silence silence;
-  const std::string where = where_is(*this);
-  std::vector<double> values(element_count(shape()));
-  if (!values.empty() && H5Dread(id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
-    fail_reading(where, "cannot read the dataset");
-  return values;
-}
-
-std::vector<double> Dataset::read_rows(std::size_t rows) const {
-  const Silence silence;
-  const std::string where = where_is(*this);
-  const Shape whole = shape();
-  std::vector<hsize_t> start(whole.size(), 0), count(whole.begin(), whole.end());
-  count.at(0) = rows;
-  std::vector<double> values(rows * element_count({whole.begin() + 1, whole.end()}));
-  if (values.empty()) return values;
-  const Handle file_space(H5Dget_space(id()), H5Sclose);
-  const Handle row_space(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose);
-  H5Sselect_hyperslab(file_space.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
-  if (H5Dread(id(), H5T_NATIVE_DOUBLE, row_space.get(), file_space.get(), H5P_DEFAULT, values.data()) < 0)
-    fail_reading(where, "cannot read the dataset");
-  return values;
-}
-
 void Dataset::assign(std::span<const double> values) {
   const Silence silence;
   const std::string where = where_is(*this);
@@ -114,69 +72,17 @@ bool Group::contains(const std::string& path) const {
   return path == "/" || H5Lexists(id(), path.c_str(), H5P_DEFAULT) > 0;
 }
 
-std::vector<std::string> Group::members() const {
-  std::vector<std::string> names;
-  H5Literate(
-      id(), H5_INDEX_NAME, H5_ITER_INC, nullptr,
-      [](hid_t, const char* name, const H5L_info_t*, void* out) -> herr_t {
-        static_cast<std::vector<std::string>*>(out)->emplace_back(name);
-        return 0;
-      },
-      &names);
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
-std::vector<std::string> Group::dataset_paths() const {
-  const Silence silence;
-  const std::string where = where_is(*this);
-  std::vector<std::string> paths;
-  const auto note = [](hid_t, const char* name, const H5O_info_t* info, void* out) -> herr_t {
-    if (info->type == H5O_TYPE_DATASET) static_cast<std::vector<std::string>*>(out)->emplace_back(name);
-    return 0;
-  };
-  if (H5Ovisit2(id(), H5_INDEX_NAME, H5_ITER_INC, note, &paths, H5O_INFO_BASIC) < 0)
-    fail_reading(where, "cannot list the group");
-  for (std::string& p : paths) p = join(path(), p);
-  std::sort(paths.begin(), paths.end());
-  return paths;
-}
-
-namespace {
-
-/// Tells what the deepest existing ancestor of a missing path has to offer.
-[[noreturn]] void fail_missing(const Group& group, const std::string& path, const std::string& kind) {
-  std::string parent = path;
-  do {
-    const std::size_t slash = parent.rfind('/');
-    parent = slash == std::string::npos ? "" : slash == 0 ? "/" : parent.substr(0, slash);
-  } while (!parent.empty() && parent != "/" && !group.contains(parent));
-  std::vector<std::string> names;
-  const Handle opened(H5Gopen2(group.id(), parent.empty() ? "." : parent.c_str(), H5P_DEFAULT), H5Gclose);
-  if (opened.get() >= 0) names = parent.empty() ? group.members() : group.open_group(parent).members();
-  constexpr std::size_t kShown = 20;
-  const bool more = names.size() > kShown;
-  if (more) names.resize(kShown);
-  const std::string inside = parent.empty() ? group.path() : join(group.path(), parent);
-  throw InputError({group.file_path() + ":" + join(group.path(), path), "no such " + kind, "",
-                    names.empty()
-                        ? inside + " is empty"
-                        : fmt::format("{} has: {}{}", inside, fmt::join(names, ", "), more ? ", ..." : "")});
-}
-
-}  // namespace
-
 Group Group::open_group(const std::string& path) const {
   const Silence silence;
   Handle handle(H5Gopen2(id(), path.c_str(), H5P_DEFAULT), H5Gclose);
-  if (handle.get() < 0) fail_missing(*this, path, "group");
+  if (handle.get() < 0) fail_writing(file_path() + ":" + join(this->path(), path), "no such group");
   return Group(std::move(handle));
 }
 
 Dataset Group::open_dataset(const std::string& path) const {
   const Silence silence;
   Handle handle(H5Dopen2(id(), path.c_str(), H5P_DEFAULT), H5Dclose);
-  if (handle.get() < 0) fail_missing(*this, path, "dataset");
+  if (handle.get() < 0) fail_writing(file_path() + ":" + join(this->path(), path), "no such dataset");
   return Dataset(std::move(handle));
 }
 
@@ -216,32 +122,6 @@ Dataset Group::write(const std::string& path, const Eigen::Ref<const MatrixX>& m
   const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows = matrix;
   return write(path, {static_cast<std::size_t>(rows.rows()), static_cast<std::size_t>(rows.cols())},
                {rows.data(), static_cast<std::size_t>(rows.size())});
-}
-
-MatrixX Group::read_matrix(const std::string& path) const {
-  const Dataset dataset = open_dataset(path);
-  const Shape shape = dataset.shape();
-  if (shape.size() > 2)
-    throw InputError(
-        {where_is(dataset), "a matrix has at most two dimensions", fmt::format("{}", shape.size()), ""});
-  const auto rows = static_cast<Eigen::Index>(shape.empty() ? 1 : shape[0]);
-  const auto columns = static_cast<Eigen::Index>(shape.size() < 2 ? 1 : shape[1]);
-  const std::vector<double> values = dataset.read();
-  return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
-      values.data(), rows, columns);
-}
-
-File File::open(const std::string& path) {
-  const Silence silence;
-  if (const auto fault = input_fault(path)) throw InputError({path, fault->what, "", fault->remedy});
-  if (H5Fis_hdf5(path.c_str()) == 0)
-    throw InputError({path, "this is not an HDF5 file", "", "give a file written by wishbone (.h5)"});
-  Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  if (file.get() < 0)
-    fail_reading(path, "cannot open the file", "is a program still writing it, or was it cut short?");
-  Handle root(H5Gopen2(file.get(), "/", H5P_DEFAULT), H5Gclose);
-  if (root.get() < 0) fail_reading(path, "cannot open the root group");
-  return File(std::move(file), std::move(root));
 }
 
 File File::create(const std::string& path) {

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <span>
 #include <string>
 #include <variant>
@@ -10,12 +9,11 @@
 
 #include "core/spatial.h"
 
-/// A small layer over the HDF5 C library: every identifier has one owner that closes it, every failure is an
-/// exception that names the file, the object and the library's own innermost message.
+/// A small layer over the HDF5 C library for writing (hdf5_reader.h reads): every identifier has one owner that closes it, every
+/// failure is a NumericsError (disk full, file already open elsewhere, ...) that names the file, the object and the library's own
+/// innermost message.
 ///
-/// Reading throws InputError (file missing, not HDF5, object missing: with what exists instead); writing
-/// throws NumericsError (disk full, file already open elsewhere, ...). Nothing written carries a time stamp:
-/// equal input gives equal bytes. Numbers are double precision, texts UTF-8 of variable length, arrays
+/// Nothing written carries a time stamp: equal input gives equal bytes. Numbers are double precision, texts UTF-8 of variable length, arrays
 /// row-major.
 namespace wishbone::hdf5 {
 
@@ -60,13 +58,6 @@ class Object {
 
   /// Writes an attribute, replacing one of that name.
   void set_attribute(const std::string& name, const Value& value);
-  bool has_attribute(const std::string& name) const;
-  /// Throws InputError when there is no such attribute or when it holds something else than a Value can.
-  Value attribute(const std::string& name) const;
-  /// Text of an attribute; empty when there is none or when it is not a text.
-  std::string text_attribute(const std::string& name) const;
-  /// Every attribute that a Value can hold (references and other foreign types are left out), by name.
-  std::map<std::string, Value> attributes() const;
 
   Handle::Id id() const { return handle_.get(); }
 
@@ -84,12 +75,6 @@ class Dataset : public Object {
   explicit Dataset(Handle handle) : Object(std::move(handle)) {}
 
   Shape shape() const;
-  /// False for texts and other data that do not convert to double.
-  bool is_numeric() const;
-  /// All elements in row-major order.
-  std::vector<double> read() const;
-  /// The first `rows` rows (along the first dimension) only; what lies beyond is not touched.
-  std::vector<double> read_rows(std::size_t rows) const;
 
   /// Replaces all elements in place.
   void assign(std::span<const double> values);
@@ -141,12 +126,8 @@ class Group : public Object {
 
   /// True when the path (relative to this group, or absolute) names an object.
   bool contains(const std::string& path) const;
-  /// Names of the members, sorted.
-  std::vector<std::string> members() const;
-  /// Absolute paths of all datasets in this group and below, sorted.
-  std::vector<std::string> dataset_paths() const;
 
-  /// Throws InputError with the nearest existing members when there is no such group.
+  /// Throws NumericsError when there is no such group.
   Group open_group(const std::string& path) const;
   Dataset open_dataset(const std::string& path) const;
 
@@ -165,16 +146,11 @@ class Group : public Object {
   /// A dataset [rows, row_shape...] that shows columns of a table from `first_column` on (a virtual dataset).
   Dataset create_view(const std::string& path, const Shape& row_shape, const Dataset& table,
                       std::size_t first_column);
-  /// Reads a dataset of at most two dimensions; a vector comes back as one column, a scalar as 1x1.
-  MatrixX read_matrix(const std::string& path) const;
 };
 
-/// An open file and its root group. Objects of a file opened for reading keep it open until they are closed
-/// too; closing a file under construction closes all its objects.
+/// A file under construction and its root group. Closing it closes all its objects.
 class File : public Group {
  public:
-  /// Opens for reading only.
-  static File open(const std::string& path);
   /// Makes a new file, replacing one of that name.
   static File create(const std::string& path);
 

@@ -8,6 +8,7 @@
 
 #include "core/descriptor.h"
 #include "core/error.h"
+#include "core/utf8.h"
 
 namespace wishbone::hdf5 {
 namespace {
@@ -36,6 +37,15 @@ std::string library_message() {
 
 }  // namespace
 
+std::string name_of(hid_t id, ssize_t (*get_name)(hid_t, char*, size_t)) {
+  const ssize_t length = get_name(id, nullptr, 0);
+  if (length <= 0) return {};
+  std::string name(static_cast<std::size_t>(length) + 1, '\0');
+  get_name(id, name.data(), name.size());
+  name.pop_back();
+  return name;
+}
+
 void fail_reading(const std::string& where, const std::string& what, const std::string& remedy) {
   const std::string cause = library_message();
   throw InputError({where, cause.empty() ? what : what + ": " + cause, "", remedy});
@@ -47,6 +57,10 @@ void fail_writing(const std::string& where, const std::string& what) {
       {where, cause.empty() ? what : what + ": " + cause, "",
        "check the free space and the permissions of the folder, and that no other program has the "
        "file open"});
+}
+
+std::string place_of(hid_t object) {
+  return as_utf8(name_of(object, H5Fget_name) + ":" + name_of(object, H5Iget_name));
 }
 
 std::string where_is(const Object& object) {

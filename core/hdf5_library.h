@@ -31,7 +31,11 @@ class Silence {
 /// @throws NumericsError likewise
 [[noreturn]] void fail_writing(const std::string& where, const std::string& what);
 
+/// What H5Iget_name, H5Fget_name say.
+std::string name_of(hid_t id, ssize_t (*get_name)(hid_t, char*, size_t));
+
 /// "run.h5:/bodies/arm"
+std::string place_of(hid_t object);
 std::string where_is(const Object& object);
 
 /// The same of an object to be made at `path` in a group.

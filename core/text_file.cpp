@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/input_file.h"
+#include "core/utf8.h"
 
 namespace wishbone {
 namespace {
@@ -34,25 +35,6 @@ std::string read_bytes(const std::filesystem::path& path, std::size_t max_bytes,
            "split it into several files and include them");
   }
   return bytes;
-}
-
-/// Length of the well-formed UTF-8 sequence at the start of `s`; 0 when there is none (Unicode 15, table
-/// 3-7).
-std::size_t utf8_length(std::string_view s) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(s[i]); };
-  const unsigned char lead = byte(0);
-  if (lead < 0x80) return 1;
-  const std::size_t n = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
-  if (lead < 0xC2 || lead > 0xF4 || s.size() < n) return 0;
-  const unsigned char lowest = lead == 0xE0 ? 0xA0 : lead == 0xF0 ? 0x90 : 0x80;  // no overlong forms
-  const unsigned char highest = lead == 0xED   ? 0x9F
-                                : lead == 0xF4 ? 0x8F
-                                               : 0xBF;  // no surrogates, <= U+10FFFF
-  if (byte(1) < lowest || byte(1) > highest) return 0;
-  for (std::size_t i = 2; i < n; ++i) {
-    if (byte(i) < 0x80 || byte(i) > 0xBF) return 0;
-  }
-  return n;
 }
 
 Source place_at(const std::filesystem::path& path, std::string_view text, std::size_t offset) {

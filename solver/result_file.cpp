@@ -1,6 +1,7 @@
 #include "solver/result_file.h"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -10,9 +11,16 @@ namespace wishbone {
 
 namespace {
 
-Signal describe(const hdf5::Dataset& dataset, const hdf5::Shape& shape) {
+Signal describe(const hdf5::DatasetReader& dataset) {
+  constexpr double kLongestRow = 1e9;
+  const hdf5::Shape& shape = dataset.shape();
   Signal signal;
   signal.path = dataset.path();
+  double size = 1;
+  for (std::size_t i = 1; i < shape.size(); ++i) size *= static_cast<double>(shape[i]);
+  if (size > kLongestRow || size < 1)
+    throw InputError({dataset.file_path() + ":" + dataset.path(), "a row has no such number of elements",
+                      fmt::format("{:g}", size), "the file is broken: take an intact copy"});
   for (std::size_t i = 1; i < shape.size(); ++i) signal.shape.push_back(static_cast<int>(shape[i]));
   signal.units = dataset.text_attribute("units");
   signal.frame = dataset.text_attribute("frame");
@@ -39,22 +47,34 @@ const std::vector<std::string>* list_of_length(const Signal& signal, const std::
 
 }  // namespace
 
-ResultFile::ResultFile(const std::string& path) : path_(path), file_(hdf5::File::open(path)) {
+std::size_t good_rows(const hdf5::GroupReader& file, std::size_t rows) {
+  if (!file.contains("/meta/rows")) return rows;
+  const MatrixX good = file.read_matrix("/meta/rows");
+  if (good.size() != 1 || !(good(0) >= 0))
+    throw InputError({file.file_path() + ":/meta/rows", "this must be the number of good rows",
+                      good.size() == 1 ? fmt::format("{}", good(0)) : "", "take an intact copy"});
+  return good(0) < static_cast<double>(rows) ? static_cast<std::size_t>(good(0)) : rows;
+}
+
+ResultFile::ResultFile(const std::string& path) : path_(path), file_(path) {
   if (!file_.contains("/time"))
     throw InputError({path, "this file has no /time: it is not the result of a run", "",
                       "`wishbone info` shows what is in it"});
-  std::size_t rows = file_.open_dataset("/time").shape().at(0);
-  if (file_.contains("/meta/rows"))
-    rows = std::min(rows, static_cast<std::size_t>(file_.read_matrix("/meta/rows")(0, 0)));
+  const hdf5::DatasetReader time = file_.open_dataset("/time");
+  if (time.shape().size() != 1 || !time.is_numeric())
+    throw InputError({path + ":/time", "the times of a result are one number for each row",
+                      fmt::format("[{}]", fmt::join(time.shape(), ", ")),
+                      "`wishbone info` shows what is in it"});
+  std::size_t rows = good_rows(file_, time.shape()[0]);
   for (const std::string& dataset_path : file_.dataset_paths()) {
-    const hdf5::Dataset dataset = file_.open_dataset(dataset_path);
-    const hdf5::Shape shape = dataset.shape();
+    const hdf5::DatasetReader dataset = file_.open_dataset(dataset_path);
     // A signal over time has the dimension scale attached; matrices of other meaning have not.
-    if (dataset_path == "/time" || shape.empty() || !dataset.has_attribute("DIMENSION_LIST")) continue;
-    rows = std::min(rows, shape[0]);
-    signals_.push_back(describe(dataset, shape));
+    if (dataset_path == "/time" || dataset.shape().empty() || !dataset.has_attribute("DIMENSION_LIST"))
+      continue;
+    rows = std::min(rows, dataset.shape()[0]);
+    signals_.push_back(describe(dataset));
   }
-  const std::vector<double> times = file_.open_dataset("/time").read_rows(rows);
+  const std::vector<double> times = time.read_rows(rows);
   time_ = Eigen::Map<const VectorX>(times.data(), static_cast<Eigen::Index>(rows));
 }
 
@@ -66,7 +86,7 @@ const Signal* ResultFile::find(const std::string& path) const {
 }
 
 MatrixX ResultFile::read(const std::string& path) const {
-  const hdf5::Dataset dataset = file_.open_dataset(path);
+  const hdf5::DatasetReader dataset = file_.open_dataset(path);
   const Signal* signal = find(path);
   if (!signal) throw InputError({path_ + ":" + path, "this dataset is not a signal over time", "", ""});
   const std::vector<double> values = dataset.read_rows(static_cast<std::size_t>(time_.size()));

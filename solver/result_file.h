@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/hdf5.h"
+#include "core/hdf5_reader.h"
 #include "solver/recorder.h"
 
 namespace wishbone {
@@ -40,10 +40,14 @@ class ResultFile {
 
  private:
   std::string path_;
-  hdf5::File file_;
+  hdf5::FileReader file_;
   VectorX time_;
   std::vector<Signal> signals_;
 };
+
+/// Of `rows` rows those that the writer has made good: all, unless the run is under way or was killed.
+/// @throws InputError when the file says something that is no number of rows
+std::size_t good_rows(const hdf5::GroupReader& file, std::size_t rows);
 
 /// A name for every number in a row: a scalar has the empty name; {3} gives x y z and {4} (quaternions) w x y
 /// z when the signal has a frame, else the components have the names in the signal's list `rows` or are numbered from 1;

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -18,7 +17,7 @@ namespace {
 
 using namespace mode_file_layout;
 
-std::string where_is(const hdf5::Object& object) {
+std::string where_is(const hdf5::ObjectReader& object) {
   return object.file_path() + ":" + object.path();
 }
 
@@ -38,41 +37,25 @@ bool fits(const hdf5::Shape& shape, const WantedShape& wanted) {
   return true;
 }
 
-/// A dataset may claim more numbers than memory holds without a file to match: deflate packs a thousandfold, at
-/// most.
-bool is_plausible(const hdf5::Dataset& dataset, const hdf5::Shape& shape) {
-  constexpr double kDensest = 1100;
-  double numbers = 1;
-  for (const std::size_t length : shape) numbers *= static_cast<double>(length);
-  std::error_code unknown;
-  const auto bytes = std::filesystem::file_size(dataset.file_path(), unknown);
-  return unknown || numbers * sizeof(double) <= kDensest * static_cast<double>(bytes);
-}
-
 /// Rows of a dataset that must have this shape; a vector comes as one column.
-MatrixX read(const hdf5::Group& group, const char* path, const WantedShape& wanted) {
-  const hdf5::Dataset dataset = group.open_dataset(path);
+MatrixX read(const hdf5::GroupReader& group, const char* path, const WantedShape& wanted) {
+  const hdf5::DatasetReader dataset = group.open_dataset(path);
   const hdf5::Shape shape = dataset.shape();
   if (!fits(shape, wanted))
     throw InputError({where_is(dataset), "the dataset has the wrong shape",
                       fmt::format("[{}]", fmt::join(shape, ", ")), text_of(wanted) + " is wanted"});
-  if (!dataset.is_numeric())
-    throw InputError({where_is(dataset), "the dataset does not hold numbers", "", ""});
-  if (!is_plausible(dataset, shape))
-    throw InputError({where_is(dataset), "the dataset claims more numbers than its file can hold",
-                      fmt::format("[{}]", fmt::join(shape, ", ")), "write the file again"});
   return group.read_matrix(path);
 }
 
 /// Node ids and the like are stored as doubles.
-int integer(const hdf5::Group& group, const char* path, double value) {
+int integer(const hdf5::GroupReader& group, const char* path, double value) {
   if (std::trunc(value) == value && std::abs(value) <= std::numeric_limits<int>::max())
     return static_cast<int>(value);
   throw InputError({where_is(group.open_dataset(path)), "this must be an integer", fmt::format("{}", value),
                     "node ids and axes are integers"});
 }
 
-std::vector<int> read_integers(const hdf5::Group& group, const char* path,
+std::vector<int> read_integers(const hdf5::GroupReader& group, const char* path,
                                std::optional<Eigen::Index> count) {
   const MatrixX values = read(group, path, {count});
   std::vector<int> integers;
@@ -81,17 +64,17 @@ std::vector<int> read_integers(const hdf5::Group& group, const char* path,
 }
 
 /// Rows of a table that is not there when it is empty.
-MatrixX read_optional(const hdf5::Group& group, const char* path, Eigen::Index width) {
+MatrixX read_optional(const hdf5::GroupReader& group, const char* path, Eigen::Index width) {
   return group.contains(path) ? read(group, path, {std::nullopt, width}) : MatrixX(0, width);
 }
 
-void read_nodes(const hdf5::Group& group, ModalData& data) {
+void read_nodes(const hdf5::GroupReader& group, ModalData& data) {
   data.node_ids = read_integers(group, kNodeId, std::nullopt);
   data.node_position = read(group, kNodePosition, {data.node_count(), 3}).transpose();
   if (group.contains(kNodeMass)) data.node_mass = read(group, kNodeMass, {data.node_count()});
 }
 
-void read_modes(const hdf5::Group& group, ModalData& data) {
+void read_modes(const hdf5::GroupReader& group, ModalData& data) {
   data.omega = read(group, kAngularFrequency, {std::nullopt});
   data.damping_ratio = read(group, kDampingRatio, {data.mode_count()});
   data.modal_mass = read(group, kModalMass, {data.mode_count()});
@@ -102,7 +85,7 @@ void read_modes(const hdf5::Group& group, ModalData& data) {
   data.shapes = read(group, kShapes, {count, data.mode_count()});
 }
 
-void read_support(const hdf5::Group& group, Support& support) {
+void read_support(const hdf5::GroupReader& group, Support& support) {
   const MatrixX springs = read_optional(group, kSprings, 5);
   for (const auto& row : springs.rowwise())
     support.springs.push_back({integer(group, kSprings, row[0]), row.segment<3>(1), row[4]});
@@ -114,17 +97,17 @@ void read_support(const hdf5::Group& group, Support& support) {
     support.masses.push_back({integer(group, kMasses, row[0]), row[1]});
 }
 
-void read_lines(const hdf5::Group& group, ModalData& data) {
+void read_lines(const hdf5::GroupReader& group, ModalData& data) {
   const MatrixX lines = read_optional(group, kLines, 2);
   for (const auto& row : lines.rowwise())
     data.lines.push_back({integer(group, kLines, row[0]), integer(group, kLines, row[1])});
 }
 
-void read_meta(const hdf5::Group& group, ModalData& data) {
+void read_meta(const hdf5::GroupReader& group, ModalData& data) {
   if (!is_mode_file(group))
     throw InputError({where_is(group), "this is not a mode file", "",
                       fmt::format("/meta of a mode file has the attribute kind = '{}'", kKind)});
-  const hdf5::Group meta = group.open_group("meta");
+  const hdf5::GroupReader meta = group.open_group("meta");
   const hdf5::Value layout = meta.attribute("layout");
   if (const auto* number = std::get_if<double>(&layout); !number || !(*number <= kLayout))
     throw InputError({where_is(meta), "this layout of mode files is not known",
@@ -138,11 +121,11 @@ void read_meta(const hdf5::Group& group, ModalData& data) {
 
 }  // namespace
 
-bool is_mode_file(const hdf5::Group& group) {
+bool is_mode_file(const hdf5::GroupReader& group) {
   return group.contains("meta") && group.open_group("meta").text_attribute("kind") == kKind;
 }
 
-ModalData read_mode_file(const hdf5::Group& group) {
+ModalData read_mode_file(const hdf5::GroupReader& group) {
   ModalData data;
   read_meta(group, data);
   read_nodes(group, data);
@@ -158,7 +141,7 @@ ModalData read_mode_file(const hdf5::Group& group) {
 }
 
 ModalData read_mode_file(const std::string& path) {
-  return read_mode_file(hdf5::File::open(path));
+  return read_mode_file(hdf5::FileReader(path));
 }
 
 }  // namespace wishbone

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/hdf5.h"
+#include "core/hdf5_reader.h"
 #include "identification/modal_data.h"
 
 namespace wishbone {
@@ -23,10 +24,10 @@ void write_mode_file(hdf5::Group& group, const ModalData& data);
 ModalData read_mode_file(const std::string& path);
 
 /// Reads from a group what write_mode_file put there.
-ModalData read_mode_file(const hdf5::Group& group);
+ModalData read_mode_file(const hdf5::GroupReader& group);
 
 /// True when the group has the attributes of one that write_mode_file wrote into.
-bool is_mode_file(const hdf5::Group& group);
+bool is_mode_file(const hdf5::GroupReader& group);
 
 /// "4 springs, 1 joint, 2 masses", or "free".
 std::string describe_support(const Support& support);

@@ -49,6 +49,55 @@ TEST_F(CommandTest, HelpOfEveryCommandHasAnExample) {
   }
 }
 
+TEST_F(CommandTest, TextsThatAreNotUtf8AreToldAsLatin1) {
+  {
+    Recorder recorder(folder_ / "c.h5", {{"/x", {}, "m/s\xB2", "", "", {}}});
+    recorder.append(0, std::vector<double>{1});
+    recorder.set_meta("title", "H\xFClle");
+    recorder.close(Outcome::kComplete);
+  }
+  EXPECT_THAT(call("info " + (folder_ / "c.h5")).text, HasSubstr("H\u00FClle"));
+  const Answer answer = call("info --json " + (folder_ / "c.h5"));
+  EXPECT_EQ(answer.code, 0) << answer.text;
+  EXPECT_EQ(nlohmann::json::parse(answer.text)["meta"]["title"], "H\u00FClle");
+  std::filesystem::rename(folder_ / "c.h5", folder_ / "\xFC.h5");
+  EXPECT_EQ(call("info --json " + (folder_ / "\xFC.h5")).code, 0);
+}
+
+TEST_F(CommandTest, BrokenBytesOfAResultAreBadInput) {
+  const std::string whole = bytes(a());
+  int refused = 0;
+  for (std::size_t at = 8; at < whole.size(); at += std::max<std::size_t>(1, at / 8)) {
+    std::string broken = whole;
+    for (std::size_t i = at; i < std::min(at + 3, whole.size()); ++i)
+      broken[i] = static_cast<char>(~broken[i]);
+    std::ofstream(folder_ / "c.h5", std::ios::binary) << broken;
+    for (const std::string& command :
+         {"info --json " + (folder_ / "c.h5"), "compare --all " + (folder_ / "c.h5") + " " + b()}) {
+      const Answer answer = call(command);
+      EXPECT_TRUE(answer.code == 0 || answer.code == 2)
+          << command << ", byte " << at << ": " << answer.code << answer.text;
+      if (answer.code != 2) continue;
+      ++refused;
+      EXPECT_THAT(answer.text, HasSubstr("c.h5"));
+    }
+  }
+  EXPECT_GT(refused, 10);
+}
+
+TEST_F(CommandTest, TimeThatIsAScalarIsBadInput) {
+  {
+    hdf5::File file = hdf5::File::create(folder_ / "c.h5");
+    const double zero = 0;
+    file.write("/time", {}, {&zero, 1});
+    file.close();
+  }
+  EXPECT_EQ(call("info " + (folder_ / "c.h5")).code, 0);
+  const Answer answer = call("compare " + (folder_ / "c.h5") + " " + b());
+  EXPECT_EQ(answer.code, 2);
+  EXPECT_THAT(answer.text, HasSubstr("c.h5:/time: error: the times of a result are one number for each row"));
+}
+
 TEST_F(CommandTest, BadInputGivesTwo) {
   EXPECT_EQ(call("").code, 2);
   EXPECT_EQ(call("fly").code, 2);

@@ -1,7 +1,8 @@
-#include "core/hdf5.h"
+#include "core/hdf5_reader.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -44,7 +45,7 @@ TEST(Hdf5, MatricesComeBackAsTheyWere) {
     file.write("/scalar", {}, std::vector<double>{-1.5});
     file.close();
   }
-  const File file = File::open(folder / "a.h5");
+  const FileReader file(folder / "a.h5");
   EXPECT_EQ(file.read_matrix("/modal/mass"), M);
   EXPECT_EQ(file.read_matrix("/modal/vector"), Vector3(7, 8, 9));
   EXPECT_EQ(file.read_matrix("/scalar")(0, 0), -1.5);
@@ -66,8 +67,8 @@ TEST(Hdf5, AttributesComeBackWithTheirType) {
     group.set_attribute("number", 0.2);
     file.close();
   }
-  const File file = File::open(folder / "a.h5");
-  const Group group = file.open_group("/a/b");
+  const FileReader file(folder / "a.h5");
+  const GroupReader group = file.open_group("/a/b");
   EXPECT_EQ(std::get<double>(group.attribute("number")), 0.2);
   EXPECT_EQ(group.text_attribute("text"), "first line\nsecond: 5 µm");
   EXPECT_EQ(group.text_attribute("empty"), "");
@@ -89,7 +90,7 @@ TEST(Hdf5, SeriesGrowByWholeRows) {
     series.append({rows.data(), 6});
     file.close();
   }
-  const Dataset series = File::open(folder / "a.h5").open_dataset("/deep/series");
+  const DatasetReader series = FileReader(folder / "a.h5").open_dataset("/deep/series");
   EXPECT_THAT(series.shape(), ElementsAre(6, 2, 3));
   const std::vector<double> values = series.read();
   EXPECT_EQ(values[29], 29);
@@ -111,17 +112,79 @@ TEST(Hdf5, EqualInputGivesEqualBytes) {
   EXPECT_EQ(bytes(folder / "a.h5"), bytes(folder / "b.h5"));
 }
 
+TEST(Hdf5, TextsThatAreNotUtf8CountAsLatin1) {
+  const TemporaryFolder folder;
+  {
+    File file = File::create(folder / "a.h5");
+    file.set_attribute("units", "m/s\xB2");
+    file.create_group("h\xFClle").set_attribute("names", std::vector<std::string>{"\xE4", "ok"});
+    file.write("h\xFClle/x", MatrixX::Ones(1, 1));
+    file.close();
+  }
+  const FileReader file(folder / "a.h5");
+  EXPECT_EQ(file.text_attribute("units"), "m/s\u00B2");
+  EXPECT_THAT(std::get<std::vector<std::string>>(file.open_group("h\u00FClle").attribute("names")),
+              ElementsAre("\u00E4", "ok"));
+  EXPECT_EQ(file.read_matrix("h\u00FClle/x")(0), 1);
+}
+
+/// Every byte of a small file in turn takes other values: the reader must read or refuse, whatever the library does.
+TEST(Hdf5, FilesWithAnyByteBrokenAreReadOrRefused) {
+  const TemporaryFolder folder;
+  {
+    File file = File::create(folder / "a.h5");
+    file.create_series("/x", {2}).append(std::vector<double>{1, 2, 3, 4});
+    file.set_attribute("text", "x");
+    file.close();
+  }
+  const std::string whole = bytes(folder / "a.h5");
+  int read = 0, refused = 0;
+  for (std::size_t at = 0; at < std::min<std::size_t>(whole.size(), 3000); at += 3) {
+    std::string broken = whole;
+    broken[at] = static_cast<char>(at % 2 == 0 ? ~broken[at] : 0xff);
+    std::ofstream(folder / "b.h5", std::ios::binary) << broken;
+    try {
+      const FileReader file(folder / "b.h5");
+      for (const std::string& path : file.dataset_paths()) file.open_dataset(path).read();
+      ++read;
+    } catch (const InputError& e) {
+      EXPECT_THAT(e.what(), HasSubstr("b.h5")) << "byte " << at;
+      ++refused;
+    }
+  }
+  EXPECT_GT(read, 100);
+  EXPECT_GT(refused, 30);
+}
+
+TEST(Hdf5, DatasetsThatClaimMoreThanTheFileCanHoldAreRefused) {
+  const TemporaryFolder folder;
+  {
+    File file = File::create(folder / "a.h5");
+    file.create_series("/x", {1000, 1000});
+    file.close();
+  }
+  const FileReader file(folder / "a.h5");
+  EXPECT_THAT(message_of<InputError>([&] { file.open_dataset("/x").read_rows(1000); }),
+              HasSubstr("a.h5:/x: error: the dataset claims more numbers than its file can hold"));
+}
+
+TEST(Hdf5, PipesAreRefused) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(mkfifo((folder / "a.h5").c_str(), 0600), 0);
+  EXPECT_THROW(FileReader(folder / "a.h5"), InputError);
+}
+
 TEST(Hdf5, MissingFilesAreNamed) {
-  EXPECT_THAT(message_of<InputError>([] { File::open("/nowhere/a.h5"); }),
+  EXPECT_THAT(message_of<InputError>([] { FileReader("/nowhere/a.h5"); }),
               AllOf(HasSubstr("/nowhere/a.h5"), HasSubstr("no such file")));
 }
 
 TEST(Hdf5, OtherFilesAreRefused) {
   const TemporaryFolder folder;
   std::ofstream(folder / "scene.yaml") << "scene: 1\n";
-  EXPECT_THAT(message_of<InputError>([&] { File::open(folder / "scene.yaml"); }),
+  EXPECT_THAT(message_of<InputError>([&] { FileReader(folder / "scene.yaml"); }),
               AllOf(HasSubstr("scene.yaml"), HasSubstr("not an HDF5 file")));
-  EXPECT_THAT(message_of<InputError>([&] { File::open(folder / ""); }), HasSubstr("directory"));
+  EXPECT_THAT(message_of<InputError>([&] { FileReader(folder / ""); }), HasSubstr("directory"));
 }
 
 TEST(Hdf5, FilesCutShortAreRefused) {
@@ -132,7 +195,7 @@ TEST(Hdf5, FilesCutShortAreRefused) {
     file.close();
   }
   std::filesystem::resize_file(folder / "a.h5", 2000);
-  EXPECT_THAT(message_of<InputError>([&] { File::open(folder / "a.h5"); }), HasSubstr("truncated"));
+  EXPECT_THAT(message_of<InputError>([&] { FileReader(folder / "a.h5"); }), HasSubstr("truncated"));
 }
 
 TEST(Hdf5, MissingDatasetsAreNamedWithWhatExists) {
@@ -143,7 +206,7 @@ TEST(Hdf5, MissingDatasetsAreNamedWithWhatExists) {
     file.write("/bodies/chassis/velocity", MatrixX::Zero(2, 3));
     file.close();
   }
-  const File file = File::open(folder / "a.h5");
+  const FileReader file(folder / "a.h5");
   EXPECT_THAT(message_of<InputError>([&] { file.open_dataset("/bodies/chassis/positon"); }),
               AllOf(HasSubstr("a.h5:/bodies/chassis/positon"), HasSubstr("no such dataset"),
                     HasSubstr("/bodies/chassis has: position, velocity")));

@@ -82,11 +82,11 @@ TEST(Recorder, RowsComeBackWhetherOrNotTheyFillTheLastChunk) {
 TEST(Recorder, EverySignalSaysUnitsFrameAndMeaning) {
   const TemporaryFolder folder;
   record(folder / "a.h5", 3);
-  const hdf5::File file = hdf5::File::open(folder / "a.h5");
+  const hdf5::FileReader file(folder / "a.h5");
   for (const std::string& path : file.dataset_paths())
     for (const char* name : {"units", "frame", "about"})
       EXPECT_TRUE(file.open_dataset(path).has_attribute(name)) << path;
-  const hdf5::Dataset deflection = file.open_dataset("/flexible/chassis/deflection");
+  const hdf5::DatasetReader deflection = file.open_dataset("/flexible/chassis/deflection");
   EXPECT_EQ(deflection.text_attribute("units"), "m");
   EXPECT_EQ(deflection.text_attribute("frame"), "chassis");
   EXPECT_EQ(file.open_dataset("/time").text_attribute("units"), "s");

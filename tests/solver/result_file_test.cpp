@@ -3,6 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
 #include "core/error.h"
 #include "temporary_folder.h"
 
@@ -10,6 +15,7 @@ namespace wishbone {
 namespace {
 
 using testing::ElementsAre;
+using testing::HasSubstr;
 
 TEST(ResultFile, TellsSignalsAndMetaAsRecorded) {
   const TemporaryFolder folder;
@@ -46,6 +52,59 @@ TEST(ResultFile, FilesWithoutTimeAreRefused) {
     file.close();
   }
   EXPECT_THROW(ResultFile(folder / "modes.h5"), InputError);
+}
+
+/// What becomes of a file in which `write` put /time and the like.
+std::string refusal_of(const std::function<void(hdf5::File&)>& write) {
+  const TemporaryFolder folder;
+  {
+    hdf5::File file = hdf5::File::create(folder / "a.h5");
+    write(file);
+    file.close();
+  }
+  try {
+    const ResultFile file(folder / "a.h5");
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "it was read";
+}
+
+TEST(ResultFile, TimesMustBeOneNumberForEachRow) {
+  const std::vector<double> six(6, 0);
+  EXPECT_THAT(refusal_of([&](hdf5::File& file) {
+                file.write("/time", {}, {six.data(), 1});
+              }),
+              HasSubstr("a.h5:/time: error: the times of a result are one number for each row (got [])"));
+  EXPECT_THAT(refusal_of([&](hdf5::File& file) {
+                file.write("/time", {3, 2}, six);
+              }),
+              HasSubstr("(got [3, 2])"));
+  EXPECT_THAT(refusal_of([&](hdf5::File& file) { file.create_group("/time"); }),
+              HasSubstr("no such dataset"));
+  EXPECT_EQ(refusal_of([&](hdf5::File& file) { file.write("/time", {6}, six); }), "it was read");
+}
+
+TEST(ResultFile, NumberOfGoodRowsMustBeOne) {
+  const std::vector<double> six(6, 0);
+  for (const double rows : {-1.0, std::nan("")})
+    EXPECT_THAT(refusal_of([&](hdf5::File& file) {
+                  file.write("/time", {6}, six);
+                  file.write("/meta/rows", {}, {&rows, 1});
+                }),
+                HasSubstr("a.h5:/meta/rows: error: this must be the number of good rows"))
+        << rows;
+  EXPECT_THAT(refusal_of([&](hdf5::File& file) {
+                file.write("/time", {6}, six);
+                file.write("/meta/rows", {0}, {});
+              }),
+              HasSubstr("the number of good rows"));
+  const double huge = 1e300;
+  EXPECT_EQ(refusal_of([&](hdf5::File& file) {
+              file.write("/time", {6}, six);
+              file.write("/meta/rows", {}, {&huge, 1});
+            }),
+            "it was read");
 }
 
 TEST(ComponentNames, FollowTheShapeTheNodesAndTheRows) {

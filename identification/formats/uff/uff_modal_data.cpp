@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/utf8.h"
 #include "core/version.h"
 #include "identification/formats/uff/uff_elements.h"
 #include "identification/formats/uff/uff_reader.h"

@@ -7,6 +7,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/utf8.h"
+
 namespace wishbone {
 namespace {
 
@@ -40,28 +42,6 @@ std::size_t exponent_length(std::string_view text, std::size_t at) {
   return is_next_number ? 0 : 4;
 }
 
-/// Length of the well-formed sequence at the start of `s` that is not ASCII; 0 when there is none.
-std::size_t utf8_sequence(std::string_view s) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(s[i]); };
-  const unsigned char lead = byte(0);
-  const std::size_t n = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
-  if (lead < 0xC2 || lead > 0xF4 || s.size() < n) return 0;
-  for (std::size_t i = 1; i < n; ++i)
-    if ((byte(i) & 0xC0) != 0x80) return 0;
-  const bool is_overlong = (lead == 0xE0 && byte(1) < 0xA0) || (lead == 0xF0 && byte(1) < 0x90);
-  const bool is_no_character = (lead == 0xED && byte(1) > 0x9F) || (lead == 0xF4 && byte(1) > 0x8F);
-  return is_overlong || is_no_character ? 0 : n;
-}
-
-bool is_utf8(std::string_view s) {
-  while (!s.empty()) {
-    const std::size_t n = static_cast<unsigned char>(s[0]) < 0x80 ? 1 : utf8_sequence(s);
-    if (n == 0) return false;
-    s.remove_prefix(n);
-  }
-  return true;
-}
-
 }  // namespace
 
 std::string_view without_trailing_blanks(std::string_view text) {
@@ -71,21 +51,6 @@ std::string_view without_trailing_blanks(std::string_view text) {
 std::string_view trimmed(std::string_view text) {
   text = without_trailing_blanks(text);
   text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
-  return text;
-}
-
-std::string as_utf8(std::string_view bytes) {
-  if (is_utf8(bytes)) return std::string(bytes);
-  std::string text;
-  for (const char c : bytes) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x80) {
-      text += c;
-    } else {
-      text += static_cast<char>(0xC0 | (byte >> 6));
-      text += static_cast<char>(0x80 | (byte & 0x3F));
-    }
-  }
   return text;
 }
 

@@ -11,8 +11,6 @@ std::string_view trimmed(std::string_view text);
 /// Without blanks at the end.
 std::string_view without_trailing_blanks(std::string_view text);
 
-/// Valid UTF-8: as it is if it is valid, else with every byte beyond ASCII taken as Latin-1.
-std::string as_utf8(std::string_view bytes);
 /// For messages: in quotes, valid UTF-8, control characters replaced, cut to a readable length; nothing for
 /// nothing.
 std::string shown(std::string_view found);

@@ -57,7 +57,7 @@ TEST(ModeFile, DescribesItselfToOtherPrograms) {
   const TemporaryFolder folder;
   const ModalData data = modal_data_example();
   write_mode_file(folder / "a.h5", data);
-  const hdf5::File file = hdf5::File::open(folder / "a.h5");
+  const hdf5::FileReader file(folder / "a.h5");
   for (const std::string& path : file.dataset_paths()) {
     EXPECT_NE(file.open_dataset(path).text_attribute("units"), "") << path;
     EXPECT_NE(file.open_dataset(path).text_attribute("about"), "") << path;
@@ -68,7 +68,7 @@ TEST(ModeFile, DescribesItselfToOtherPrograms) {
   EXPECT_DOUBLE_EQ(file.read_matrix("/modes/frequency")(0), 1.177);
   EXPECT_EQ(file.read_matrix("/modes/shapes"), data.shapes);
   EXPECT_EQ(file.read_matrix("/support/springs").row(0), (Eigen::RowVector<double, 5>(17, 1, 0, 0, 47e3)));
-  const hdf5::Group meta = file.open_group("/meta");
+  const hdf5::GroupReader meta = file.open_group("/meta");
   EXPECT_EQ(meta.text_attribute("kind"), "mode set");
   EXPECT_EQ(meta.text_attribute("title"), data.title);
   EXPECT_EQ(meta.text_attribute("support"), "2 springs, 1 joint, 2 masses");
@@ -85,7 +85,7 @@ TEST(ModeFile, LetsOthersAddGroups) {
     file.close();
   }
   expect_same(read_mode_file(folder / "a.h5"), data);
-  expect_same(read_mode_file(hdf5::File::open(folder / "a.h5").open_group("/input")), data.with_modes({1}));
+  expect_same(read_mode_file(hdf5::FileReader(folder / "a.h5").open_group("/input")), data.with_modes({1}));
 }
 
 TEST(ModeFile, RefusesToWriteWhatIsNotValid) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/utf8.h"
 #include "identification/formats/uff/uff_reader.h"
 #include "identification/formats/uff/uff_text.h"
 #include "text_files.h"
