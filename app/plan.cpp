@@ -9,8 +9,8 @@
 #include "app/body_modes_text.h"
 #include "app/closure_text.h"
 #include "app/command.h"
-#include "app/warnings.h"
 #include "app/text_table.h"
+#include "app/warnings.h"
 #include "models/scene_loader.h"
 
 namespace wishbone {

@@ -41,7 +41,8 @@ class Compiler {
     std::tie(compiled.system, compiled.initial) = std::move(builder_).build();
     check_recoveries(scene_, builder_, compiled.system);
     compiled.warnings = scene_.warnings;
-    std::ranges::move(warnings_of(compiled.identified, compiled.modes), std::back_inserter(compiled.warnings));
+    std::ranges::move(warnings_of(compiled.identified, compiled.modes),
+                      std::back_inserter(compiled.warnings));
     compiled.observer = observer(compiled.system);
     compiled.transient = transient();
     return compiled;

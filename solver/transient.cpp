@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "solver/deflection_watch.h"
 #include "solver/events.h"
 #include "solver/forward_dynamics.h"
 #include "solver/kinematics.h"
@@ -26,6 +27,7 @@ class Run {
         ws_(ws),
         output_(output),
         state_(std::move(state)),
+        deflections_(system),
         counts_turns_(counts_turns(system)) {
     stops_ = system.stop_times();
     std::erase_if(stops_, [&](double t) { return t <= state_.t || t >= options.duration; });
@@ -68,6 +70,7 @@ class Run {
 
   void report(TransientSummary& summary) const {
     summary.singular_passages = watch_.passages();
+    deflections_.report(summary.warnings);
     summary.statistics = integrator_ ? integrator_->statistics() : Statistics{};
   }
 
@@ -76,6 +79,7 @@ class Run {
 
   void emit() {
     output_(state_, work_);
+    deflections_.observe(state_);
     ++next_output_;
   }
 
@@ -187,6 +191,7 @@ class Run {
   std::vector<double> stops_;
   std::unique_ptr<Integrator> integrator_;
   SingularWatch watch_;
+  DeflectionWatch deflections_;
   bool counts_turns_;
   long next_output_ = 0;
   long steps_ = 0;

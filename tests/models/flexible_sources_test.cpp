@@ -6,7 +6,7 @@
 
 #include "compiled_modes.h"
 #include "core/error.h"
-#include "identification/elements/hexahedral_mesh.h"
+#include "identification/elements/mesh.h"
 #include "identification/formats/matrix_market.h"
 #include "models/compile.h"
 #include "models/scene_loader.h"
@@ -15,7 +15,7 @@
 namespace wishbone {
 namespace {
 
-const HexahedralMesh kMesh = make_block({1, 0.1, 0.2}, {3, 1, 2});
+const Mesh kMesh = make_block({1, 0.1, 0.2}, {3, 1, 2});
 constexpr IsotropicMaterial kMaterial{210e6, 0.3, 2600};
 constexpr std::string_view kMaterialText = "{young: 210 MPa, poisson: 0.3, density: 2600}";
 
