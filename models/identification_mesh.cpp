@@ -41,7 +41,8 @@ Elements in_columns(const std::vector<std::vector<int>>& rows) {
   elements.type = *type_of(rows.front().size());
   elements.nodes.resize(nodes, static_cast<Eigen::Index>(rows.size()));
   for (std::size_t e = 0; e < rows.size(); ++e)
-    elements.nodes.col(static_cast<Eigen::Index>(e)) = Eigen::Map<const Eigen::VectorXi>(rows[e].data(), nodes);
+    elements.nodes.col(static_cast<Eigen::Index>(e)) =
+        Eigen::Map<const Eigen::VectorXi>(rows[e].data(), nodes);
   return elements;
 }
 

@@ -76,12 +76,14 @@ void DeflectionWatch::report(Warnings& warnings) const {
     const auto id = [&](int place) { return body.node_ids[static_cast<std::size_t>(place)]; };
     warnings.push_back(
         {fmt::format("{}, t = {:.6g} s", body.name, body.t_worst),
-         fmt::format("it deflects beyond the range of linear elasticity: parts of it turn or stretch against the body "
+         fmt::format("it deflects beyond the range of linear elasticity: parts of it turn or stretch against "
+                     "the body "
                      "axes by more than {:g}, from t = {:.6g} s on",
                      kLimit, body.t_first),
          fmt::format("{:.3g} between nodes {} and {}, which leaves lengths wrong by {:.2g} %", body.worst,
                      id(body.worst_pair.a), id(body.worst_pair.b), 50 * body.worst * body.worst),
-         "divide the body into several that are fixed to each other, so that each bends less, or lower the loads"});
+         "divide the body into several that are fixed to each other, so that each bends less, or lower the "
+         "loads"});
   }
 }
 

@@ -32,17 +32,18 @@ void ElementGeometry::check_middle_nodes(int id) const {
     const int middle = reference_->corners() + static_cast<int>(k);
     const double length = (nodes_.col(b) - nodes_.col(a)).norm();
     // along the edge: an arc may bulge
-    const double off = std::abs((nodes_.col(middle) - 0.5 * (nodes_.col(a) + nodes_.col(b)))
-                                    .dot(nodes_.col(b) - nodes_.col(a))) /
-                       length;
+    const double off =
+        std::abs(
+            (nodes_.col(middle) - 0.5 * (nodes_.col(a) + nodes_.col(b))).dot(nodes_.col(b) - nodes_.col(a))) /
+        length;
     const double aside = (nodes_.col(middle) - 0.5 * (nodes_.col(a) + nodes_.col(b))).norm();
     if (off <= kNear * length && aside <= 0.5 * length) continue;
-    throw InputError({fmt::format("element {}", id),
-                      fmt::format("its node {} must lie near the middle between its nodes {} and {}",
-                                  middle + 1, a + 1, b + 1),
-                      fmt::format("{:.3g} m from it, the edge has {:.3g} m", aside, length),
-                      fmt::format("list the nodes in the order of {}",
-                                  reference_->corners() == 4 ? "C3D10" : "C3D20")});
+    throw InputError(
+        {fmt::format("element {}", id),
+         fmt::format("its node {} must lie near the middle between its nodes {} and {}", middle + 1, a + 1,
+                     b + 1),
+         fmt::format("{:.3g} m from it, the edge has {:.3g} m", aside, length),
+         fmt::format("list the nodes in the order of {}", reference_->corners() == 4 ? "C3D10" : "C3D20")});
   }
 }
 

@@ -12,7 +12,7 @@ namespace wishbone {
 /// counterclockwise seen from corner 4. Middle nodes follow the corners in the order of ReferenceElement::edges.
 enum class ElementType {
   incompatible_modes,  ///< 8-node hexahedron that bends (C3D8I): the default
-  mean_dilatation,     ///< 8-node hexahedron of the source (C3D8): locks or yields in bending
+  mean_dilatation,     ///< 8-node hexahedron of the source: locks or yields in bending
   hexahedron20,        ///< quadratic (C3D20), integrated fully
   tetrahedron10        ///< quadratic (C3D10)
 };

@@ -21,7 +21,8 @@ struct Compared {
 Compared first_bending(const Mesh& mesh) {
   const ModeSet set = free_free_modes(mesh, kSteel);
   // 4.7300^2 sqrt(E I / (rho A L^4)); rotary inertia and shear take 0.9 percent at L/h = 33
-  const double beam = 0.991 * 4.73004 * 4.73004 * std::sqrt(kSteel.youngs_modulus / kSteel.density * 0.03 * 0.03 / 12);
+  const double beam =
+      0.991 * 4.73004 * 4.73004 * std::sqrt(kSteel.youngs_modulus / kSteel.density * 0.03 * 0.03 / 12);
   return {set.omega[0] / beam, frequency_ratios(mesh, kSteel, set.shapes.leftCols<1>())[0]};
 }
 
@@ -37,7 +38,8 @@ TEST(MeshEstimate, KnowsTheErrorOfTooFewElements) {
 
 TEST(MeshEstimate, KnowsElementsThatLock) {
   for (const int across : {1, 2}) {
-    const Compared c = first_bending(make_block(kBar, {10 * across, across, across}, ElementType::mean_dilatation));
+    const Compared c =
+        first_bending(make_block(kBar, {10 * across, across, across}, ElementType::mean_dilatation));
     EXPECT_GT(c.true_ratio, 1.3);
     EXPECT_GT(c.estimate, 1.3);
   }

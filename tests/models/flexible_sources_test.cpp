@@ -153,8 +153,8 @@ TEST_F(FlexibleSources, AreRefusedWithPlaceValueAndRemedy) {
             "  add 'mass: M.mtx', or a column 'mass' to the nodes");
   EXPECT_EQ(
       message(fmt::format("model: {{nodes: nodes.csv, elements: [[1, 2, 3]], material: {}}}", kMaterialText)),
-      "scene.yaml:7:44: bodies.beam.flexible.model.elements[1]: error: a hexahedron has eight nodes\n"
-      "  write [n1, n2, ..., n8]");
+      "scene.yaml:7:44: bodies.beam.flexible.model.elements[1]: error: there is no element of 3 nodes\n"
+      "  write [n1, ..., n8] or [n1, ..., n20] for hexahedra, [n1, ..., n10] for tetrahedra");
   EXPECT_EQ(
       message(fmt::format("model: {{nodes: nodes.csv, elements: [[1, 2, 3, 4, 5, 6, 7, 99]], material: {}}}",
                           kMaterialText)),
