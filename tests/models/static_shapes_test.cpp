@@ -27,7 +27,7 @@ bodies:
     form: modal
     position: [0.5, 0.05, 0.05]
     flexible:
-      block: {size: [1, 0.1, 0.1], elements: [2, 1, 1]}
+      block: {size: [1, 0.1, 0.1], elements: [2, 1, 1], element: mean_dilatation}
       material: {young: 210 MPa, poisson: 0.3, density: 2600}
       modes: all
   stone: {mass: 1, inertia: [1, 1, 1], position: [1, 0, 0.1]}
