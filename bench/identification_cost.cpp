@@ -17,7 +17,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "identification/elements/hexahedral_mesh.h"
+#include "identification/elements/mesh.h"
 #include "identification/methods/lowest_modes.h"
 #include "identification/methods/released_modes.h"
 #include "identification/methods/rigid_modes.h"
@@ -32,7 +32,7 @@ constexpr int kModes = 40;
 
 /// Block of hexahedra with n freedoms.
 struct Structure {
-  HexahedralMesh mesh;
+  Mesh mesh;
   SparseMatrix K, M;
   MatrixX rigid;
 

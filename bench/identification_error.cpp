@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "identification/elements/hexahedral_mesh.h"
+#include "identification/elements/mesh.h"
 #include "identification/free_free_modes.h"
 #include "identification/methods/clean_up.h"
 #include "identification/methods/joint_support.h"
@@ -21,7 +21,7 @@ namespace {
 using namespace wishbone;
 
 struct Chassis {
-  HexahedralMesh mesh = make_block({2.4, 0.4, 0.4}, {4, 1, 1});
+  Mesh mesh = make_block({2.4, 0.4, 0.4}, {4, 1, 1}, ElementType::mean_dilatation);
   IsotropicMaterial material{2.1e8, 0.3, 2600};
   std::vector<Freedom> freedoms = all_freedoms(mesh.node_ids);
   SparseMatrix M = lumped_mass_matrix(lumped_mass(mesh, material.density));

@@ -16,7 +16,7 @@
 #include <string>
 
 #include "bench/least_time.h"
-#include "identification/elements/hexahedral_mesh.h"
+#include "identification/elements/mesh.h"
 #include "solver/assembly.h"
 #include "solver/forward_dynamics.h"
 #include "solver/system_builder.h"
@@ -35,7 +35,7 @@ struct Column {
 constexpr Column kColumns[] = {{"consistent", InertiaTerms::consistent}, {"source", InertiaTerms::source}};
 
 /// Field j of a sequence of ever shorter waves: products of cosines that move one axis.
-void set_wave(const HexahedralMesh& mesh, int j, Eigen::Ref<VectorX> field) {
+void set_wave(const Mesh& mesh, int j, Eigen::Ref<VectorX> field) {
   const int axis = j % 3, wave = j / 3;
   const Vector3 k = std::numbers::pi * Vector3(wave % 14 + 1, wave / 14 % 4, wave / 56).cwiseQuotient(kSize);
   field.setZero();
@@ -48,7 +48,7 @@ void set_wave(const HexahedralMesh& mesh, int j, Eigen::Ref<VectorX> field) {
 /// As many modes as asked for: waves made mass-orthonormal and orthogonal to rigid motion. What an evaluation costs does not
 /// depend on whether they are those of a material.
 ModeSet waves(int count, const Eigen::Vector3i& divisions = kDivisions) {
-  const HexahedralMesh mesh = make_block(kSize, divisions);
+  const Mesh mesh = make_block(kSize, divisions);
   ModeSet set;
   set.node_ids = mesh.node_ids;
   set.node_mass = lumped_mass(mesh, 2600);

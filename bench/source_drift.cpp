@@ -20,7 +20,9 @@ constexpr int kModes = 10;
 /// The chassis of the car, undamped.
 const ModeSet& block() {
   static const ModeSet modes =
-      free_free_modes(make_block({2.4, 0.4, 0.4}, {4, 1, 1}), {2.1e8, 0.3, 2600}).lowest(kModes);
+      free_free_modes(make_block({2.4, 0.4, 0.4}, {4, 1, 1}, ElementType::mean_dilatation),
+                      {2.1e8, 0.3, 2600})
+          .lowest(kModes);
   return modes;
 }
 

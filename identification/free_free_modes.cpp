@@ -69,7 +69,7 @@ ModeSet free_free_modes(const std::vector<int>& node_ids, const VectorX& node_ma
   return set;
 }
 
-ModeSet free_free_modes(const HexahedralMesh& mesh, const IsotropicMaterial& material) {
+ModeSet free_free_modes(const Mesh& mesh, const IsotropicMaterial& material) {
   return free_free_modes(mesh.node_ids, lumped_mass(mesh, material.density), mesh.nodes,
                          MatrixX(stiffness_matrix(mesh, material)));
 }

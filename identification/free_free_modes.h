@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bodies/mode_set.h"
-#include "identification/elements/hexahedral_mesh.h"
+#include "identification/elements/mesh.h"
 
 namespace wishbone {
 
@@ -24,6 +24,6 @@ ModeSet free_free_modes(const std::vector<int>& node_ids, const VectorX& node_ma
                         const Matrix3X& node_position, const MatrixX& stiffness);
 
 /// The same for a meshed body of one material.
-ModeSet free_free_modes(const HexahedralMesh& mesh, const IsotropicMaterial& material);
+ModeSet free_free_modes(const Mesh& mesh, const IsotropicMaterial& material);
 
 }  // namespace wishbone

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "identification/elements/hexahedral_mesh.h"
+#include "identification/elements/mesh.h"
 #include "identification/judgement/judgement.h"
 #include "identification/judgement/monte_carlo.h"
 #include "identification/methods/design_change.h"
@@ -42,7 +42,7 @@ struct StructureChange {
 
 /// Elements of one material.
 struct MeshedBody {
-  HexahedralMesh mesh;
+  Mesh mesh;
   IsotropicMaterial material;
 };
 

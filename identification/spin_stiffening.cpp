@@ -67,26 +67,22 @@ Displacements spin_deflections(const SparseMatrix& K, const ModeSet& set, const 
 
 }  // namespace
 
-MatrixX spin_stiffening(const HexahedralMesh& mesh, const IsotropicMaterial& material, const ModeSet& set,
+MatrixX spin_stiffening(const Mesh& mesh, const IsotropicMaterial& material, const ModeSet& set,
                         const SpinLoad& load) {
   const Displacements x = spin_deflections(stiffness_matrix(mesh, material), set, load);
   const Matrix6 elasticity = material.elasticity();
-  const Eigen::Index m = set.mode_count();
+  const Eigen::Index m = set.mode_count(), n = mesh.elements.rows();
   MatrixX stiffening = MatrixX::Zero(m, 6 * m);
-  MatrixX shapes(24, m);
-  Eigen::Matrix<double, 24, 6> u;
   for (int e = 0; e < mesh.elements.cols(); ++e) {
-    const Hexahedron element = mesh.element(e);
-    for (int corner = 0; corner < 8; ++corner) {
-      const int node = mesh.elements(corner, e);
-      shapes.middleRows<3>(3 * corner) = set.shapes.middleRows<3>(3 * node);
-      u.middleRows<3>(3 * corner) = x.middleRows<3>(3 * node);
-    }
+    const SolidElement element = mesh.element(e, elasticity);
+    const std::vector<int> freedoms = mesh.freedoms(e);
+    const MatrixX shapes = set.shapes(freedoms, Eigen::all);
+    const Displacements u = x(freedoms, Eigen::all);
     for (int pair = 0; pair < 6; ++pair) {
-      const Eigen::Matrix<double, 8, 8> K = element.stress_stiffness(elasticity, u.col(pair));
+      const MatrixX K = element.stress_stiffness(u.col(pair));
       // K_ab += sum over the axes of Psi_axis^T K Psi_axis, rows of an axis every third
       for (int axis = 0; axis < 3; ++axis) {
-        const MatrixX along = shapes(Eigen::seqN(axis, 8, 3), Eigen::all);
+        const MatrixX along = shapes(Eigen::seqN(axis, n, 3), Eigen::all);
         stiffening.middleCols(pair * m, m).noalias() += along.transpose() * (K * along);
       }
     }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bodies/mode_set.h"
-#include "identification/elements/hexahedral_mesh.h"
+#include "identification/elements/mesh.h"
 
 namespace wishbone {
 
@@ -25,7 +25,7 @@ struct SpinLoad {
 /// R. Schwertassek, Int. J. Numer. Meth. Eng. 32 (1991) 1833-1850.
 /// @param set modes of the mesh, with its nodes in their order
 /// @throws InputError if a node is unknown, or if the nodes do not hold the body
-MatrixX spin_stiffening(const HexahedralMesh& mesh, const IsotropicMaterial& material, const ModeSet& set,
+MatrixX spin_stiffening(const Mesh& mesh, const IsotropicMaterial& material, const ModeSet& set,
                         const SpinLoad& load);
 
 }  // namespace wishbone

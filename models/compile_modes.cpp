@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "bodies/rigid_frames.h"
 #include "core/yaml.h"
+#include "identification/elements/mesh_estimate.h"
 #include "identification/flexible_modes.h"
 #include "identification/mode_set_of.h"
 #include "identification/spin_stiffening.h"
@@ -41,9 +45,8 @@ const std::vector<int>& nodes_of(const Scene::StaticNodes& nodes, const std::vec
 /// The model that the modes are computed from; of a block it is made here.
 std::shared_ptr<const AnalyticalModel> model_of(const Scene::Flexible& flexible) {
   if (flexible.model) return flexible.model;
-  const Scene::Block& b = *flexible.block;
   return std::make_shared<const AnalyticalModel>(
-      identification_sections::block_model(b.size, b.elements, b.young, b.poisson, b.density));
+      identification_sections::mesh_model(identification_sections::block_body(*flexible.block)));
 }
 
 MatrixX stiffening_of(const Scene::Body& body, const AnalyticalModel& model, const ModeSet& modes) {
@@ -75,11 +78,31 @@ std::string choice_text(const Scene::Flexible& flexible, const std::vector<int>&
   return text;
 }
 
-std::string split_warning(double omega) {
-  return fmt::format(
-      "the choice separates modes of equal frequency, {:.4g} Hz: which deflections it keeps is a matter of "
-      "rounding, and a symmetric body is not symmetric any more; choose one more or one less",
-      omega / (2 * std::numbers::pi));
+Diagnostic split_warning(const std::string& body, double omega) {
+  return {body,
+          "the choice separates modes of equal frequency: which deflections it keeps is a matter of "
+          "rounding, and a "
+          "symmetric body is not symmetric any more",
+          fmt::format("{:.4g} Hz", omega / (2 * std::numbers::pi)), "choose one more or one less"};
+}
+
+/// What the elements make of the lowest modes, the pair of a symmetric body among them. Higher modes are always coarser: the
+/// limit to which they are wanted is the user's.
+std::optional<Diagnostic> mesh_warning(const std::string& body, const MeshedBody& elements,
+                                       const ModeSet& set) {
+  constexpr Eigen::Index kJudged = 2;
+  constexpr double kLimit = 0.3;  // of a frequency
+  const Eigen::Index count = std::min<Eigen::Index>(kJudged, set.mode_count());
+  const VectorX ratio = frequency_ratios(elements.mesh, elements.material, set.shapes.leftCols(count));
+  Eigen::Index worst = 0;
+  if (!(ratio.array().log().abs().maxCoeff(&worst) > std::log1p(kLimit))) return std::nullopt;
+  const double found = set.omega[worst] / (2 * std::numbers::pi);
+  return Diagnostic{body, "the mesh is too coarse for the lowest modes, or its elements do not bend",
+                    fmt::format("mode {}: {:.4g} Hz, and about {:.3g} Hz by the elements' own estimate",
+                                worst + 1, found, found / ratio[worst]),
+                    elements.mesh.type == ElementType::mean_dilatation
+                        ? "write 'element: incompatible_modes', or take more elements along every edge"
+                        : "take more elements, along the waves of the mode first, or quadratic ones"};
 }
 
 /// With what rigid frames make of the modes.
@@ -102,7 +125,7 @@ Warnings warnings_of(const std::vector<IdentifiedBody>& identified, const std::v
     for (const std::string& warning : body.identification.judgement.warnings)
       warnings.push_back({body.body, warning, "", ""});
   for (const BodyModes& body : chosen)
-    for (const std::string& warning : body.warnings) warnings.push_back({body.body, warning, "", ""});
+    warnings.insert(warnings.end(), body.warnings.begin(), body.warnings.end());
   return warnings;
 }
 
@@ -124,6 +147,7 @@ StiffenedModes ModeCompiler::modes_of(int index) {
   FlexibleModes modes;
   MatrixX stiffening;
   std::string choice;
+  std::optional<Diagnostic> doubt;
   within(body.where, [&] {
     if (flexible.identification) {
       identified.push_back({body.name, identify(*flexible.identification)});
@@ -135,13 +159,15 @@ StiffenedModes ModeCompiler::modes_of(int index) {
       modes = flexible_modes(*model, flexible.modes, nodes_of(flexible.attachment, interfaces),
                              nodes_of(flexible.constraint, interfaces), flexible.modes_of);
       stiffening = stiffening_of(body, *model, modes.set);
+      if (model->elements) doubt = mesh_warning(body.name, *model->elements, modes.set);
       choice = choice_text(flexible, interfaces, modes);
     }
     return 0;
   });
   set_damping(body, modes.set);
   tables.push_back(within(body.where, [&] { return table_of(body, std::move(choice), modes, interfaces); }));
-  for (const double omega : modes.split) tables.back().warnings.push_back(split_warning(omega));
+  if (doubt) tables.back().warnings.push_back(*doubt);
+  for (const double omega : modes.split) tables.back().warnings.push_back(split_warning(body.name, omega));
   return {std::move(modes.set), std::move(stiffening)};
 }
 

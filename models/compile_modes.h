@@ -23,7 +23,7 @@ struct BodyModes {
   std::string body;
   std::string choice;  ///< in words
   std::vector<ModeRow> modes;
-  std::vector<std::string> warnings = {};
+  Warnings warnings = {};
 };
 
 /// Modes with the damping and the geometric stiffening (ShapeSet::stiffening; empty: none) that the scene asks for.

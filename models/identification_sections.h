@@ -7,6 +7,7 @@
 
 #include "core/yaml.h"
 #include "identification/identify.h"
+#include "models/scene.h"
 
 /// Readers of the parts of an identification, for its loader only.
 namespace wishbone::identification_sections {
@@ -51,8 +52,10 @@ RigidBodyData read_rigid_body(const Value& value);
 /// `all`, a number of lowest modes, a list of mode numbers (from 1), or a range of frequencies {above, below}.
 ModalData choose_modes(const Value& value, const ModalData& modes);
 
-/// A block of hexahedra and its material as a model; shared with the flexible bodies of scenes.
-AnalyticalModel block_model(const Vector3& size, const Eigen::Vector3i& elements, double young,
-                            double poisson, double density);
+/// A block of hexahedra and its material; shared with the flexible bodies of scenes.
+MeshedBody block_body(const Scene::Block& block);
+AnalyticalModel mesh_model(const MeshedBody& body);
+/// {nodes, elements, element, material}: a listed mesh.
+AnalyticalModel read_mesh(const Value& value, Files& files);
 
 }  // namespace wishbone::identification_sections

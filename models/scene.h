@@ -13,6 +13,7 @@
 #include "core/function.h"
 #include "core/source.h"
 #include "core/spatial.h"
+#include "identification/elements/reference_element.h"
 #include "identification/mode_choice.h"
 #include "joints/joint_kind.h"
 #include "solver/flexible_signal.h"
@@ -36,13 +37,14 @@ struct Scene {
     int frame = -1;  ///< index into the frames of the body that carries it; -1: none was named
   };
 
-  /// A rectangular block of 8-node hexahedra, centred at the body origin, edges along the body axes.
+  /// A rectangular block of hexahedra, centred at the body origin, edges along the body axes.
   struct Block {
     Vector3 size = Vector3::Zero();     ///< edge lengths [m]
     Eigen::Vector3i elements{1, 1, 1};  ///< number of elements along each edge
     double young = 0;                   ///< Young's modulus [Pa]
     double poisson = 0;                 ///< Poisson's ratio
     double density = 0;                 ///< [kg/m3]
+    ElementType type = ElementType::incompatible_modes;
   };
 
   /// How the axes of a flexible body follow it: mean axes, or fixed on three of its nodes.

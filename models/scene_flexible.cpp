@@ -7,7 +7,7 @@
 
 #include "bodies/interface_frame.h"
 #include "identification/body_nodes.h"
-#include "identification/elements/hexahedral_mesh.h"
+#include "identification/elements/mesh.h"
 #include "models/identification_loader.h"
 #include "models/identification_sections.h"
 #include "models/scene_doubts.h"
@@ -16,18 +16,8 @@
 namespace wishbone::scene_sections {
 namespace {
 
-double read_poisson(const Value& value) {
-  const double poisson = value.number(kRatio);
-  if (!(poisson > -1 && poisson < 0.5))
-    value.refuse("Poisson's ratio must be between -1 and 0.5", "metals have 0.3");
-  return poisson;
-}
-
-/// Beyond it the modes of a block would take minutes.
-constexpr int kMostNodes = 40000;
-
 void take_block(const Scene::Block& block, Scene::Flexible& flexible) {
-  const HexahedralMesh mesh = make_block(block.size, block.elements);
+  const Mesh mesh = identification_sections::block_body(block).mesh;
   flexible.block = block;
   flexible.node_ids = mesh.node_ids;
   flexible.node_position = mesh.nodes;
@@ -199,10 +189,8 @@ void take_damping(const Value& value, std::optional<int> count, Scene::Flexible&
 /// own.
 void take_identification(const Value& section, Scene::Flexible& flexible, Scene& scene) {
   std::optional<AnalyticalModel> model;
-  if (flexible.block) {
-    const Scene::Block& b = *flexible.block;
-    model = identification_sections::block_model(b.size, b.elements, b.young, b.poisson, b.density);
-  }
+  if (flexible.block)
+    model = identification_sections::mesh_model(identification_sections::block_body(*flexible.block));
   const AnalyticalModel* own_model = flexible.model ? flexible.model.get() : model ? &*model : nullptr;
   LoadedIdentification loaded = read_identification(section, own_model);
   if (loaded.task.goal == Goal::kHeld)
@@ -351,42 +339,7 @@ Scene::Flexible read_flexible(const Value& value, Scene& scene) {
 
 VectorX node_masses(const Scene::Flexible& flexible) {
   if (flexible.model) return flexible.model->node_mass;
-  const Scene::Block& block = *flexible.block;
-  return lumped_mass(make_block(block.size, block.elements), block.density);
-}
-
-IsotropicMaterial read_material(const Value& value) {
-  const Mapping keys(value, {"young", "poisson", "density"});
-  IsotropicMaterial material;
-  material.youngs_modulus = keys.required("young").positive(kPressure);
-  material.poissons_ratio = read_poisson(keys.required("poisson"));
-  material.density = keys.required("density").positive(kDensity);
-  return material;
-}
-
-Scene::Block read_block(const Value& value, const Value& material_value) {
-  Scene::Block block;
-  const Mapping keys(value, {"size", "elements"});
-  const Value size = keys.required("size");
-  block.size = size.vector3(kLength);
-  if (!(block.size.minCoeff() > 0))
-    size.refuse("the edges of the block must be positive", "give three lengths above zero");
-  const Value elements = keys.required("elements");
-  const std::vector<Value> counts = elements.list();
-  if (counts.size() != 3) elements.refuse("three numbers of elements are wanted", "write [nx, ny, nz]");
-  constexpr int kMostElements = 100;
-  for (int i = 0; i < 3; ++i)
-    block.elements[i] = counts[static_cast<std::size_t>(i)].integer(1, kMostElements);
-  if (const int nodes = (block.elements + Eigen::Vector3i::Ones()).prod(); nodes > kMostNodes)
-    elements.refuse(fmt::format("the block has {} nodes, more than the {} whose modes can be computed", nodes,
-                                kMostNodes),
-                    "take fewer elements");
-
-  const IsotropicMaterial material = read_material(material_value);
-  block.young = material.youngs_modulus;
-  block.poisson = material.poissons_ratio;
-  block.density = material.density;
-  return block;
+  return lumped_mass(identification_sections::block_body(*flexible.block).mesh, flexible.block->density);
 }
 
 }  // namespace wishbone::scene_sections

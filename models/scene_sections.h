@@ -10,7 +10,7 @@
 
 #include "core/did_you_mean.h"
 #include "core/yaml.h"
-#include "identification/elements/hexahedron.h"
+#include "identification/elements/isotropic_material.h"
 #include "models/scene.h"
 
 /// Readers of the sections of a scene file, for the scene loader only. Each fills its part of the scene and

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/error.h"
+#include "solver/deflection_watch.h"
 #include "solver/events.h"
 #include "solver/forward_dynamics.h"
 #include "solver/kinematics.h"
@@ -45,6 +46,7 @@ class Run {
         keep_going_(keep_going),
         state_(std::move(state)),
         guard_(limits(system, options), keep_going),
+        deflections_(system),
         counts_turns_(counts_turns(system)) {
     stops_ = system.stop_times();
     std::erase_if(stops_, [&](double t) { return t <= state_.t || t >= options.duration; });
@@ -99,6 +101,7 @@ class Run {
     if (integrator_) add(integrator_->statistics(), summary.statistics);
     if (better_) summary.warnings.push_back(slow_method(*better_));
     if (check_) std::ranges::move(check_->warnings(), std::back_inserter(summary.warnings));
+    deflections_.report(summary.warnings);
   }
 
   /// The force that exerts most is where to look first.
@@ -119,6 +122,7 @@ class Run {
   void emit() {
     output_(state_, work_);
     check_->observe(state_, work_, ws_);
+    deflections_.observe(state_);
     ++next_output_;
   }
 
@@ -252,6 +256,7 @@ class Run {
   std::optional<BetterMethod> better_;  // than the method that was asked for
   SingularWatch watch_;
   std::optional<RunCheck> check_;
+  DeflectionWatch deflections_;
   bool counts_turns_;
   long next_output_ = 0;
   long steps_ = 0;

@@ -5,16 +5,24 @@
 
 namespace wishbone {
 
-std::vector<std::array<int, 2>> element_edges(const HexahedralMesh& mesh) {
-  // corners as Hexahedron orders them: round one face, round the opposite one, and from face to face
-  constexpr std::array<std::array<int, 2>, 12> kCorners{
-      {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}};
+std::vector<std::array<int, 2>> element_edges(const Mesh& mesh) {
+  const ReferenceElement& reference = reference_element(mesh.type);
   std::set<std::array<int, 2>> columns;
-  for (int e = 0; e < mesh.elements.cols(); ++e)
-    for (const auto& [a, b] : kCorners) {
+  for (int e = 0; e < mesh.elements.cols(); ++e) {
+    const auto add = [&](int a, int b) {
       const auto [low, high] = std::minmax({mesh.elements(a, e), mesh.elements(b, e)});
       columns.insert({low, high});
+    };
+    int middle = reference.corners();
+    for (const auto& [a, b] : reference.edges) {
+      if (!reference.is_quadratic()) {
+        add(a, b);
+        continue;
+      }
+      add(a, middle);
+      add(middle++, b);
     }
+  }
   std::vector<std::array<int, 2>> edges;
   edges.reserve(columns.size());
   for (const auto& [a, b] : columns) edges.push_back({mesh.node_ids[a], mesh.node_ids[b]});

@@ -13,7 +13,7 @@ namespace {
 
 TEST(NeighbourLines, GiveBackTheEdgesOfABlock) {
   for (const Vector3& size : {Vector3(2.4, 0.4, 0.4), Vector3(1, 1, 1), Vector3(1.3, 0.9, 0.01)}) {
-    const HexahedralMesh mesh = make_block(size, {4, 3, 1});
+    const Mesh mesh = make_block(size, {4, 3, 1});
     auto lines = neighbour_lines(mesh.nodes);
     for (auto& [a, b] : lines) a = mesh.node_ids[a], b = mesh.node_ids[b];
     auto edges = element_edges(mesh);

@@ -10,7 +10,7 @@ namespace wishbone {
 
 /// The lowest modes of a free block, with its edges as lines.
 inline ModalData block_modes(const Vector3& size, const Eigen::Vector3i& divisions, int count) {
-  const HexahedralMesh mesh = make_block(size, divisions);
+  const Mesh mesh = make_block(size, divisions);
   const ModeSet set = free_free_modes(mesh, {210e6, 0.3, 2600}).lowest(count);
   ModalData data;
   data.title = "block";

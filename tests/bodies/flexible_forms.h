@@ -6,14 +6,14 @@
 #include <vector>
 
 #include "bodies/modal_body.h"
-#include "identification/elements/hexahedral_mesh.h"
+#include "identification/elements/mesh.h"
 
 namespace wishbone::flexible_forms {
 
 inline constexpr IsotropicMaterial kMaterial{2.1e8, 0.3, 2600};
 inline const std::vector<int> kInterface = {1, 5, 2, 6, 17, 13, 18, 14, 3, 4, 19, 20};
 
-HexahedralMesh chassis_mesh();
+Mesh chassis_mesh();
 const ModeSet& chassis();
 ModeSet damped(ModeSet set, double zeta);
 

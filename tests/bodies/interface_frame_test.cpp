@@ -113,8 +113,9 @@ TEST(InterfaceFrame, NeedsThreeNodesThatSpanAPlane) {
 }
 
 TEST(ModalBody, PlacesAndMovesItsFramesAfterItsNodes) {
-  const ModeSet modes =
-      free_free_modes(make_block({2.4, 0.4, 0.4}, {4, 1, 1}), IsotropicMaterial{2.1e8, 0.3, 2600}).lowest(8);
+  const ModeSet modes = free_free_modes(make_block({2.4, 0.4, 0.4}, {4, 1, 1}, ElementType::mean_dilatation),
+                                        IsotropicMaterial{2.1e8, 0.3, 2600})
+                            .lowest(8);
   const InterfaceFrame end{"end", {17, 18, 19, 20}, {}};
   const ModalBody body(modes, {5}, {end});
   ASSERT_EQ(body.interface_count(), 2);

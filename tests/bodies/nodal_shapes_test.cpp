@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 
 constexpr IsotropicMaterial kMaterial{2.1e8, 0.3, 2600};
 
-HexahedralMesh block() {
+Mesh block() {
   return make_block({2.4, 0.4, 0.3}, {3, 1, 1});
 }
 

@@ -23,7 +23,7 @@ namespace {
 constexpr IsotropicMaterial kRubber{1e8, 0.3, 2000};
 
 /// 5 sections of 6 nodes; those of the last are 25 to 30.
-HexahedralMesh mesh() {
+Mesh mesh() {
   return make_block({1.2, 0.3, 0.4}, {4, 1, 2});
 }
 const InterfaceFrame kEnd{"end", {25, 26, 27, 28, 29, 30}, {1, 2, 3, 1, 1, 0.5}};

@@ -16,7 +16,7 @@ std::size_t grid_edge_count(int a, int b, int c) {
 TEST(ElementEdges, AreTheLinesOfTheGridEachOnce) {
   for (const Eigen::Vector3i& divisions :
        {Eigen::Vector3i(1, 1, 1), Eigen::Vector3i(4, 1, 1), Eigen::Vector3i(3, 4, 2)}) {
-    const HexahedralMesh mesh = make_block({2.4, 0.4, 0.4}, divisions);
+    const Mesh mesh = make_block({2.4, 0.4, 0.4}, divisions);
     const auto edges = element_edges(mesh);
     EXPECT_EQ(edges.size(), grid_edge_count(divisions.x(), divisions.y(), divisions.z()));
     std::set<std::set<int>> different;
@@ -28,7 +28,7 @@ TEST(ElementEdges, AreTheLinesOfTheGridEachOnce) {
 TEST(ElementEdges, RunAlongOneAxisOverOneDivision) {
   const Vector3 size(2.4, 0.4, 0.6);
   const Eigen::Vector3i divisions(4, 1, 2);
-  const HexahedralMesh mesh = make_block(size, divisions);
+  const Mesh mesh = make_block(size, divisions);
   const Vector3 pitch = size.cwiseQuotient(divisions.cast<double>());
   for (const auto& [a, b] : element_edges(mesh)) {
     // node ids of a block count from 1
@@ -41,7 +41,7 @@ TEST(ElementEdges, RunAlongOneAxisOverOneDivision) {
 }
 
 TEST(ElementEdges, NameNodesByTheirIds) {
-  HexahedralMesh mesh = make_block({1, 1, 1}, {1, 1, 1});
+  Mesh mesh = make_block({1, 1, 1}, {1, 1, 1});
   for (int& id : mesh.node_ids) id *= 100;
   for (const auto& [a, b] : element_edges(mesh)) {
     EXPECT_EQ(a % 100, 0);

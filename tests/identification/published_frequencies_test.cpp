@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "identification/elements/hexahedral_mesh.h"
+#include "identification/elements/mesh.h"
 #include "identification/methods/lowest_modes.h"
 
 namespace wishbone {
@@ -17,8 +17,8 @@ namespace {
 using HeldPlaces = std::function<bool(const Vector3& place, int axis)>;
 
 /// The `count` lowest frequencies of a held structure, ascending [Hz].
-VectorX lowest_frequencies(const HexahedralMesh& mesh, const IsotropicMaterial& material,
-                           const HeldPlaces& held, int count) {
+VectorX lowest_frequencies(const Mesh& mesh, const IsotropicMaterial& material, const HeldPlaces& held,
+                           int count) {
   const SparseMatrix K = stiffness_matrix(mesh, material);
   const VectorX mass = lumped_mass(mesh, material.density);
   std::vector<int> row_of(static_cast<std::size_t>(K.rows()), -1);
@@ -102,7 +102,7 @@ TEST(PublishedFrequencies, ATaperedMembraneInPlaneStressAgreesWithNafems) {
   const HeldPlaces held = [](const Vector3& p, int axis) { return axis == 2 ? p.z() < 1e-9 : p.x() < 1e-9; };
   std::vector<VectorX> f;
   for (const int k : {1, 2}) {
-    HexahedralMesh mesh = make_block({10, 1, half_thickness}, {16 * k, 8 * k, 1});
+    Mesh mesh = make_block({10, 1, half_thickness}, {16 * k, 8 * k, 1});
     for (auto p : mesh.nodes.colwise()) {
       p += Vector3(5, 0, half_thickness / 2);
       p.y() *= 5 - 0.4 * p.x();

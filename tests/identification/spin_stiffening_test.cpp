@@ -12,7 +12,7 @@ namespace wishbone {
 namespace {
 
 /// A mesh with its lumped masses, from its mass centre, and the shapes given.
-ModeSet set_of(const HexahedralMesh& mesh, const IsotropicMaterial& material, MatrixX shapes) {
+ModeSet set_of(const Mesh& mesh, const IsotropicMaterial& material, MatrixX shapes) {
   ModeSet set;
   set.node_ids = mesh.node_ids;
   set.node_mass = lumped_mass(mesh, material.density);
@@ -23,7 +23,7 @@ ModeSet set_of(const HexahedralMesh& mesh, const IsotropicMaterial& material, Ma
   return set;
 }
 
-std::vector<int> nodes_at(const HexahedralMesh& mesh, double x) {
+std::vector<int> nodes_at(const Mesh& mesh, double x) {
   std::vector<int> ids;
   for (Eigen::Index i = 0; i < mesh.nodes.cols(); ++i)
     if (std::abs(mesh.nodes(0, i) - x) < 1e-9) ids.push_back(mesh.node_ids[static_cast<std::size_t>(i)]);
@@ -34,7 +34,7 @@ constexpr double kLength = 2, kSide = 0.05;
 constexpr IsotropicMaterial kSteel{2e11, 0.0, 7800};  // no lateral contraction: the stress is that of a bar
 
 /// Sections of a bar that turn with its line v = (x + L/2)^2 along y and z: Bernoulli's kinematics.
-MatrixX bending(const HexahedralMesh& mesh) {
+MatrixX bending(const Mesh& mesh) {
   MatrixX shapes = MatrixX::Zero(mesh.nodes.size(), 2);
   for (Eigen::Index i = 0; i < mesh.nodes.cols(); ++i) {
     const double x = mesh.nodes(0, i) + kLength / 2;
@@ -60,7 +60,7 @@ TEST(SpinStiffening, IsTheTensionOfAHeldBar) {
   for (const double r : {0.0, 1.5}) {
     std::array<double, 3> work{};
     for (int i = 0; i < 3; ++i) {
-      const HexahedralMesh mesh = make_block({kLength, kSide, kSide}, {10 << i, 2, 2});
+      const Mesh mesh = make_block({kLength, kSide, kSide}, {10 << i, 2, 2});
       const ModeSet set = set_of(mesh, kSteel, bending(mesh));
       const SpinLoad load{nodes_at(mesh, -kLength / 2), Vector3(-kLength / 2 - r, 0, 0)};
       const MatrixX K = spin_stiffening(mesh, kSteel, set, load);
@@ -79,7 +79,7 @@ TEST(SpinStiffening, IsTheTensionOfAHeldBar) {
 
 // A body that spins freely is pulled by itself only: the tension of its half is that of a bar held in its middle.
 TEST(SpinStiffening, OfAFreeBodyIsThatOfOneHeldAtItsCentre) {
-  const HexahedralMesh mesh = make_block({kLength, kSide, kSide}, {20, 2, 2});
+  const Mesh mesh = make_block({kLength, kSide, kSide}, {20, 2, 2});
   const ModeSet set = set_of(mesh, kSteel, bending(mesh));
   const MatrixX free = spin_stiffening(mesh, kSteel, set, {});
   const MatrixX held = spin_stiffening(mesh, kSteel, set, {nodes_at(mesh, 0), std::nullopt});
@@ -90,7 +90,7 @@ TEST(SpinStiffening, OfAFreeBodyIsThatOfOneHeldAtItsCentre) {
 // equilibrium with, and so Psi^T K_sigma Psi of rigid turns is sum (phi x s).(phi x f).
 TEST(SpinStiffening, TurnsTheLoadsWithTheBody) {
   constexpr IsotropicMaterial soft{1e9, 0.3, 2000};
-  const HexahedralMesh mesh = make_block({0.9, 0.5, 0.7}, {1, 1, 1});
+  const Mesh mesh = make_block({0.9, 0.5, 0.7}, {1, 1, 1});
   MatrixX turns(24, 3);
   for (Eigen::Index i = 0; i < 8; ++i) turns.middleRows<3>(3 * i) = -skew(mesh.nodes.col(i));
   const ModeSet set = set_of(mesh, soft, turns);
@@ -106,7 +106,7 @@ TEST(SpinStiffening, TurnsTheLoadsWithTheBody) {
 }
 
 TEST(SpinStiffening, NeedsNodesThatHoldTheBody) {
-  const HexahedralMesh mesh = make_block({1, 1, 1}, {1, 1, 1});
+  const Mesh mesh = make_block({1, 1, 1}, {1, 1, 1});
   const ModeSet set = set_of(mesh, kSteel, MatrixX::Zero(24, 1));
   const auto complaint = [&](std::vector<int> held) {
     return message_of<InputError>([&] {

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <random>
 
-#include "identification/elements/hexahedral_mesh.h"
+#include "identification/elements/mesh.h"
 #include "identification/free_free_modes.h"
 #include "identification/methods/model_modes.h"
 #include "identification/methods/rigid_modes.h"
@@ -22,7 +22,7 @@ TestStructure make(std::vector<int> ids, Matrix3X nodes, VectorX node_mass, Spar
   return s;
 }
 
-TestStructure from_mesh(const HexahedralMesh& mesh) {
+TestStructure from_mesh(const Mesh& mesh) {
   return make(mesh.node_ids, mesh.nodes, lumped_mass(mesh, kMaterial.density),
               stiffness_matrix(mesh, kMaterial));
 }
@@ -39,7 +39,7 @@ Modes TestStructure::with_rigid() const {
 }
 
 TestStructure chassis() {
-  return from_mesh(make_block({2.4, 0.4, 0.4}, {4, 1, 1}));
+  return from_mesh(make_block({2.4, 0.4, 0.4}, {4, 1, 1}, ElementType::mean_dilatation));
 }
 
 TestStructure slender_block() {
@@ -47,7 +47,7 @@ TestStructure slender_block() {
 }
 
 TestStructure distorted_block(const Eigen::Vector3i& divisions, unsigned seed) {
-  HexahedralMesh mesh = make_block(divisions.cast<double>() * 0.5, divisions);
+  Mesh mesh = make_block(divisions.cast<double>() * 0.5, divisions);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> shift(-0.08, 0.08);
   for (double& x : mesh.nodes.reshaped()) x += shift(random);
@@ -56,12 +56,12 @@ TestStructure distorted_block(const Eigen::Vector3i& divisions, unsigned seed) {
 
 TestStructure l_shape() {
   // a row of four cells along x and one of three along z that starts on its last cell
-  const HexahedralMesh foot = make_block({2, 0.5, 0.5}, {4, 1, 1});
-  const HexahedralMesh leg = make_block({0.5, 0.5, 1.5}, {1, 1, 3});
-  HexahedralMesh mesh;
+  const Mesh foot = make_block({2, 0.5, 0.5}, {4, 1, 1});
+  const Mesh leg = make_block({0.5, 0.5, 1.5}, {1, 1, 3});
+  Mesh mesh;
   std::map<std::array<long, 3>, int> known;
   std::vector<Vector3> nodes;
-  const auto add = [&](const HexahedralMesh& part, const Vector3& at) {
+  const auto add = [&](const Mesh& part, const Vector3& at) {
     for (Eigen::Index e = 0; e < part.elements.cols(); ++e) {
       mesh.elements.conservativeResize(8, mesh.elements.cols() + 1);
       for (int a = 0; a < 8; ++a) {

@@ -6,7 +6,7 @@
 
 #include "compiled_modes.h"
 #include "core/error.h"
-#include "identification/elements/hexahedral_mesh.h"
+#include "identification/elements/mesh.h"
 #include "identification/formats/matrix_market.h"
 #include "models/compile.h"
 #include "models/scene_loader.h"
@@ -15,7 +15,7 @@
 namespace wishbone {
 namespace {
 
-const HexahedralMesh kMesh = make_block({1, 0.1, 0.2}, {3, 1, 2});
+const Mesh kMesh = make_block({1, 0.1, 0.2}, {3, 1, 2});
 constexpr IsotropicMaterial kMaterial{210e6, 0.3, 2600};
 constexpr std::string_view kMaterialText = "{young: 210 MPa, poisson: 0.3, density: 2600}";
 
@@ -138,6 +138,45 @@ TEST_F(FlexibleSources, AreLumpedWhereAsked) {
             "  the kinds of lumping are: row_sum, diagonal");
 }
 
+/// A table of the nodes of a mesh, and its elements as a table.
+void write_mesh(const TextFiles& files, const Mesh& mesh) {
+  std::string nodes = "node,x,y,z\n", elements;
+  for (Eigen::Index i = 0; i < mesh.nodes.cols(); ++i)
+    nodes += fmt::format("{},{:.17g},{:.17g},{:.17g}\n", mesh.node_ids[static_cast<std::size_t>(i)],
+                         mesh.nodes(0, i), mesh.nodes(1, i), mesh.nodes(2, i));
+  for (Eigen::Index a = 0; a < mesh.elements.rows(); ++a)
+    elements += fmt::format("{}n{}", a == 0 ? "" : ",", a + 1);
+  for (const auto& element : mesh.elements.colwise()) {
+    elements += '\n';
+    for (Eigen::Index a = 0; a < element.size(); ++a)
+      elements += fmt::format("{}{}", a == 0 ? "" : ",", mesh.node_ids[static_cast<std::size_t>(element[a])]);
+  }
+  files.write("quadratic_nodes.csv", nodes);
+  files.write("quadratic_elements.csv", elements + "\n");
+}
+
+// The number of nodes says which elements are listed; those of the same block have the same lowest bending, 20 nodes or 10.
+TEST_F(FlexibleSources, QuadraticMeshesAreListedAsHexahedraAndTetrahedra) {
+  const Mesh block = make_block({1, 0.1, 0.2}, {6, 1, 1});
+  constexpr int kPaths[6][4] = {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6},
+                                {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
+  Mesh corners{block.node_ids, block.nodes, Eigen::MatrixXi(4, 6 * block.elements.cols()), {}};
+  for (int e = 0; e < block.elements.cols(); ++e)
+    for (int t = 0; t < 6; ++t)
+      for (int a = 0; a < 4; ++a) corners.elements(a, 6 * e + t) = block.elements(kPaths[t][a], e);
+  std::vector<double> lowest;
+  for (const Mesh& mesh :
+       {with_middle_nodes(block), with_middle_nodes(corners, ElementType::tetrahedron10)}) {
+    write_mesh(files_, mesh);
+    const ModeSet set = compiled_modes(compile(load(
+        fmt::format("model: {{nodes: quadratic_nodes.csv, elements: quadratic_elements.csv, material: {}}}",
+                    kMaterialText))));
+    EXPECT_EQ(set.node_count(), mesh.nodes.cols());
+    lowest.push_back(set.omega[0]);
+  }
+  EXPECT_NEAR(lowest[1] / lowest[0], 1, 0.05);
+}
+
 TEST_F(FlexibleSources, AreRefusedWithPlaceValueAndRemedy) {
   EXPECT_EQ(message("model: {nodes: nodes.csv, stiffness: short.mtx, mass: M.mtx}"),
             "scene.yaml:7:44: bodies.beam.flexible.model.stiffness: error: 24 nodes have 72 freedoms, this "
@@ -153,8 +192,8 @@ TEST_F(FlexibleSources, AreRefusedWithPlaceValueAndRemedy) {
             "  add 'mass: M.mtx', or a column 'mass' to the nodes");
   EXPECT_EQ(
       message(fmt::format("model: {{nodes: nodes.csv, elements: [[1, 2, 3]], material: {}}}", kMaterialText)),
-      "scene.yaml:7:44: bodies.beam.flexible.model.elements[1]: error: a hexahedron has eight nodes\n"
-      "  write [n1, n2, ..., n8]");
+      "scene.yaml:7:44: bodies.beam.flexible.model.elements[1]: error: there is no element of 3 nodes\n"
+      "  write [n1, ..., n8] or [n1, ..., n20] for hexahedra, [n1, ..., n10] for tetrahedra");
   EXPECT_EQ(
       message(fmt::format("model: {{nodes: nodes.csv, elements: [[1, 2, 3, 4, 5, 6, 7, 99]], material: {}}}",
                           kMaterialText)),

@@ -17,7 +17,7 @@ using testing::HasSubstr;
 constexpr const char* kGood = R"(wishbone: 1
 identification:
   model:
-    block: {size: [2.4, 0.4, 0.4], elements: [4, 1, 1]}
+    block: {size: [2.4, 0.4, 0.4], elements: [4, 1, 1], element: mean_dilatation}
     material: {young: 210 MPa, poisson: 0.3, density: 2600}
   measured: {from: model}
 )";
@@ -108,7 +108,7 @@ bodies:
     form: modal
     position: [0, 0, 0]
     flexible:
-      block: {size: [9, 0.4, 0.4], elements: [4, 1, 1]}
+      block: {size: [9, 0.4, 0.4], elements: [4, 1, 1], element: mean_dilatation}
       material: {young: 210 MPa, poisson: 0.3, density: 2600}
       modes: {measured: {file: )" + (measured / "chassis_test.unv").string() +
                                      "}, mass: {file: " + (measured / "chassis_masses.csv").string() +

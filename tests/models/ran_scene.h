@@ -24,6 +24,7 @@ class RanScene {
   }
   const ResultFile& file() const { return *file_; }
   MatrixX read(const std::string& path) const { return file_->read(path); }
+  const Warnings& warnings() const { return result_.warnings; }
   const WorkCounters& work() const { return result_.work; }
   double meta(const std::string& name) const { return std::get<double>(file_->meta().at(name)); }
 

@@ -27,7 +27,7 @@ bodies:
     form: modal
     position: [0.5, 0.05, 0.05]
     flexible:
-      block: {size: [1, 0.1, 0.1], elements: [2, 1, 1]}
+      block: {size: [1, 0.1, 0.1], elements: [2, 1, 1], element: mean_dilatation}
       material: {young: 210 MPa, poisson: 0.3, density: 2600}
       modes: all
   stone: {mass: 1, inertia: [1, 1, 1], position: [1, 0, 0.1]}
@@ -103,14 +103,17 @@ TEST_F(StaticShapes, AttachmentModesAreTakenAtInterfacesOrNamedNodes) {
 
 TEST_F(StaticShapes, AChoiceThatSeparatesModesOfEqualFrequencyIsDoubted) {
   // the section is square: bending modes come in pairs, the first of them 2 and 3
-  const auto warnings = [&](std::string_view modes) { return compile(load(modes)).modes.at(0).warnings; };
+  const auto warnings = [&](std::string_view modes) {
+    Warnings split = compile(load(modes)).modes.at(0).warnings;
+    std::erase_if(split, [](const Diagnostic& warning) {
+      return warning.what.find("modes of equal frequency") == std::string::npos;
+    });
+    return split;
+  };
   const double hertz = compiled_modes(compile(load("modes: all"))).omega[1] / (2 * std::numbers::pi);
-  EXPECT_THAT(warnings("modes: 2"),
-              ElementsAre(fmt::format(
-                  "the choice separates modes of equal frequency, {:.4g} Hz: which deflections it keeps is a "
-                  "matter of "
-                  "rounding, and a symmetric body is not symmetric any more; choose one more or one less",
-                  hertz)));
+  ASSERT_EQ(warnings("modes: 2").size(), 1u);
+  EXPECT_EQ(warnings("modes: 2")[0].value, fmt::format("{:.4g} Hz", hertz));
+  EXPECT_EQ(warnings("modes: 2")[0].remedy, "choose one more or one less");
   EXPECT_EQ(warnings("modes: {list: [1, 3]}").size(), 1u);
   EXPECT_THAT(warnings("modes: 3"), testing::IsEmpty());
   EXPECT_THAT(warnings("modes: all"), testing::IsEmpty());

@@ -58,7 +58,7 @@ class StiffenedBodies : public testing::Test {
 
 TEST_F(StiffenedBodies, AreStiffenedAboutThePointThatTheSceneNames) {
   const CompiledScene compiled = compile(load());
-  const HexahedralMesh mesh = make_block({1, 0.1, 0.05}, {3, 1, 1});
+  const Mesh mesh = make_block({1, 0.1, 0.05}, {3, 1, 1});
   const IsotropicMaterial material{20e6, 0.3, 1000};
   const MatrixX expected =
       spin_stiffening(mesh, material, free_free_modes(mesh, material), {{1, 2, 3, 4}, Vector3(-0.6, 0, 0)});

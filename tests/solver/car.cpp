@@ -84,7 +84,7 @@ Built car(int modes) {
   car.flexible = modes > 0;
   const Pose X_WB{Matrix3::Identity(), {0, 0, 0.5}};
   if (car.flexible) {
-    const HexahedralMesh mesh = make_block({2.4, 0.4, 0.4}, {4, 1, 1});
+    const Mesh mesh = make_block({2.4, 0.4, 0.4}, {4, 1, 1}, ElementType::mean_dilatation);
     ModeSet set = free_free_modes(mesh, {2.1e8, 0.3, 2600}).lowest(modes);
     set.damping_ratio.setConstant(0.05);
     car.chassis = car.b.add_flexible_body("chassis", std::move(set), X_WB);

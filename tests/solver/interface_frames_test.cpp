@@ -257,7 +257,7 @@ constexpr int kTipNode = 15;
 
 /// Nodal deflections of the free finite element model under kForce at a node of the tip and kMoment on a frame over the tip,
 /// held so that the mean motion of the four nodes of the first section vanishes: sum delta_i = 0, sum r_i x delta_i = 0.
-Matrix3X finite_element_deflections(const HexahedralMesh& mesh) {
+Matrix3X finite_element_deflections(const Mesh& mesh) {
   const Eigen::Index n = 3 * mesh.nodes.cols();
   MatrixX A = MatrixX::Zero(n + 6, n + 6);
   A.topLeftCorner(n, n) = MatrixX(stiffness_matrix(mesh, kMaterial));
@@ -284,7 +284,7 @@ struct Cantilever {
   Matrix3X deflection;
   Vector6 reaction;  // on the ground, about the middle of the first section
 };
-Cantilever loaded_cantilever(const HexahedralMesh& mesh, double factor) {
+Cantilever loaded_cantilever(const Mesh& mesh, double factor) {
   ModeSet modes = free_free_modes(mesh, kMaterial);
   modes.damping_ratio.setOnes();
   SystemBuilder b;
@@ -310,7 +310,7 @@ Cantilever loaded_cantilever(const HexahedralMesh& mesh, double factor) {
 }
 
 TEST(InterfaceFrames, ABlockWeldedAtAFrameDeflectsAsTheFiniteElementModel) {
-  const HexahedralMesh mesh = make_block({1.2, 0.4, 0.3}, {3, 1, 1});
+  const Mesh mesh = make_block({1.2, 0.4, 0.3}, {3, 1, 1});
   const Matrix3X expected = finite_element_deflections(mesh);
   // what is quadratic in the loads, the turning of the block, cancels in the difference of opposite ones
   const Cantilever plus = loaded_cantilever(mesh, 1), minus = loaded_cantilever(mesh, -1);

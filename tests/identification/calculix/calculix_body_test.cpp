@@ -77,7 +77,7 @@ TEST_F(CalculixBody, IsLumpedNearTheFrequenciesOfTheConsistentModel) {
 
 TEST_F(CalculixBody, TakesItsNodesFromResultsToo) {
   std::string text = "    2C                          1295                                     1\n";
-  const HexahedralMesh mesh = calculix_frame().mesh;
+  const Mesh mesh = calculix_frame().mesh;
   for (std::size_t i = 0; i < mesh.node_ids.size(); ++i) {
     const Vector3 p = mesh.nodes.col(static_cast<Eigen::Index>(i));
     text += fmt::format(" -1{:10d}{:12.5E}{:12.5E}{:12.5E}\n", mesh.node_ids[i], p.x(), p.y(), p.z());

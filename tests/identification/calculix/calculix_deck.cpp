@@ -17,7 +17,7 @@ int axis_number(const Vector3& direction) {
 }
 
 void write_structure(const CalculixModel& model, std::back_insert_iterator<std::string> out) {
-  const HexahedralMesh& mesh = model.mesh;
+  const Mesh& mesh = model.mesh;
   fmt::format_to(out, "*NODE,NSET=NALL\n");
   for (Eigen::Index i = 0; i < mesh.nodes.cols(); ++i)
     fmt::format_to(out, "{},{:.12e},{:.12e},{:.12e}\n", mesh.node_ids[static_cast<std::size_t>(i)],

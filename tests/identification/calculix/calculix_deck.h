@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "identification/elements/hexahedral_mesh.h"
+#include "identification/elements/mesh.h"
 #include "identification/modal_data.h"
 
 namespace wishbone {
@@ -10,7 +10,7 @@ namespace wishbone {
 /// What CalculiX is given: hexahedra C3D8 of one material, held by a support whose directions lie along the
 /// axes.
 struct CalculixModel {
-  HexahedralMesh mesh;
+  Mesh mesh;
   IsotropicMaterial material;
   Support support;
 };

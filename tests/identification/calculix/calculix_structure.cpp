@@ -24,8 +24,9 @@ const Vector3 kSize{1.2, 0.9, 0.16};
 
 /// Keeps the elements whose centres pass `wanted`, and the nodes they need, numbered from 1.
 template <class Predicate>
-HexahedralMesh part_of(const HexahedralMesh& block, Predicate wanted) {
-  HexahedralMesh part;
+Mesh part_of(const Mesh& block, Predicate wanted) {
+  Mesh part;
+  part.type = block.type;
   std::vector<int> elements, nodes, number(block.node_ids.size(), -1);
   for (int e = 0; e < block.elements.cols(); ++e)
     if (wanted(Vector3(block.nodes(Eigen::all, block.elements.col(e)).rowwise().mean())))
@@ -52,7 +53,7 @@ Vector3 distorted(const Vector3& p) {
           taper * p.z() + 0.06 * std::cos(3 * p.x() + 2 * p.y())};
 }
 
-int nearest_node(const HexahedralMesh& mesh, const Vector3& undistorted) {
+int nearest_node(const Mesh& mesh, const Vector3& undistorted) {
   Eigen::Index nearest = 0;
   (mesh.nodes.colwise() - distorted(undistorted)).colwise().squaredNorm().minCoeff(&nearest);
   return mesh.node_ids[static_cast<std::size_t>(nearest)];
@@ -60,7 +61,7 @@ int nearest_node(const HexahedralMesh& mesh, const Vector3& undistorted) {
 
 /// Corner of the frame, tip of the leg along x, tip of the leg along y: on the underside.
 std::array<int, 3> support_nodes() {
-  const HexahedralMesh mesh = calculix_frame().mesh;
+  const Mesh mesh = calculix_frame().mesh;
   const Vector3 corner = -kSize / 2;
   return {nearest_node(mesh, corner), nearest_node(mesh, corner + Vector3(kSize.x(), 0, 0)),
           nearest_node(mesh, corner + Vector3(0, kSize.y(), 0))};
@@ -102,7 +103,7 @@ bool calculix_is_installed() {
 }
 
 CalculixModel calculix_frame() {
-  HexahedralMesh mesh = part_of(make_block(kSize, kDivisions), [](const Vector3& centre) {
+  Mesh mesh = part_of(make_block(kSize, kDivisions, ElementType::mean_dilatation), [](const Vector3& centre) {
     const Vector3 cell = (centre + kSize / 2).cwiseQuotient(kSize).cwiseProduct(kDivisions.cast<double>());
     return cell.x() < kLegWidth || cell.y() < kLegWidth;
   });
@@ -129,7 +130,7 @@ Support frame_joints() {
 
 CalculixStructure analyse_with_calculix(const CalculixModel& model, int mode_count) {
   const TemporaryFolder folder;
-  const HexahedralMesh& mesh = model.mesh;
+  const Mesh& mesh = model.mesh;
   CalculixModel free = model;
   free.support = {};
   CalculixStructure structure;

@@ -70,7 +70,7 @@ TEST_F(CalculixFrame, IsReadAsItWasModelled) {
   ASSERT_GE(s.supported.freedom_count(), 3000);
 
   double volume = 0;
-  for (int e = 0; e < model.mesh.elements.cols(); ++e) volume += model.mesh.element(e).volume();
+  for (int e = 0; e < model.mesh.elements.cols(); ++e) volume += model.mesh.geometry(e).volume();
   const MatrixX translations =
       rigid_body_shapes(s.supported.freedoms, s.supported.node_ids, s.supported.node_position).leftCols(3);
   EXPECT_LE((translations.transpose() * s.M * translations / (model.material.density * volume) -

@@ -6,7 +6,7 @@
 
 #include "bodies/mode_set.h"
 #include "core/error.h"
-#include "identification/elements/hexahedral_mesh.h"
+#include "identification/elements/mesh.h"
 #include "identification/free_free_modes.h"
 
 namespace wishbone {
@@ -15,7 +15,7 @@ namespace {
 constexpr IsotropicMaterial kSteel{2.1e11, 0.3, 7850};
 
 struct Structure {
-  HexahedralMesh mesh;
+  Mesh mesh;
   SparseMatrix K, M;
 };
 
