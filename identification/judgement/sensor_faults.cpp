@@ -24,7 +24,7 @@ constexpr double kLeastDeviation = 0.08;  ///< of a sensor that is looked at
 constexpr double kAboveScatter = 5;       ///< times what the agreeing nodes deviate by
 constexpr double kExplained = 0.35;       ///< most of the deviation that a named fault may leave
 constexpr double kForeign = 0.6;          ///< deviation that is told though nothing explains it,
-constexpr double kSharp = 0.04;  ///< where the other nodes scatter less: a stiff support bends what it holds
+constexpr double kSharp = 0.04;  ///< of others, for scales and turns: a stiff support bends what it holds
 constexpr std::array kAxis = {'x', 'y', 'z'};
 
 /// What the channels of a sensor read instead of their own axes: an axis and a sign each.

@@ -139,7 +139,7 @@ TEST_F(ModalCommands, InfoTellsFrequencyAndDampingOfComplexModes) {
       UffFile bar = bar_of(1, analysis);
       bar.shapes[0].dataset = dataset;
       write_uff(file, bar);
-      EXPECT_THAT(call("info " + file).text, AllOf(HasSubstr("47.75"), HasSubstr("0.9999")));
+      EXPECT_THAT(call("info " + file).text, testing::ContainsRegex("47[.]75 +1 +2 +3"));
       const auto json = nlohmann::json::parse(call("info --json " + file).text);
       const auto& mode = json["nodal_results"][0];
       EXPECT_NEAR(mode["frequency_hz"].get<double>(), std::hypot(3, 300) / (2 * std::numbers::pi), 1e-9);
