@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <memory>
 
 #include "app/check_output.h"
@@ -20,9 +22,18 @@ void check_files(const Options& options) {
   check_modal_output(options.output, inputs);
 }
 
+/// What a reader made of numbers that do not speak for themselves.
+void tell_understood(const ModalData& data) {
+  print_extent(data);
+  for (const std::string& line : data.provenance) fmt::print("  {}\n", line);
+}
+
 ExitCode run(const Options& options) {
   check_files(options);
-  write_and_tell(options.output, read_modal_data(options.input));
+  const ModalData data = read_modal_data(options.input);
+  write_and_tell(options.output, data);
+  tell_understood(data);
+  warn_of_units(options.input, data);
   return kDone;
 }
 

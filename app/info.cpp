@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 
 #include "app/command.h"
@@ -14,6 +15,7 @@
 #include "core/hdf5_reader.h"
 #include "identification/formats/modal_file.h"
 #include "identification/formats/mode_file.h"
+#include "identification/formats/uff/uff_modal_data.h"
 #include "identification/formats/uff/uff_reader.h"
 #include "solver/result_file.h"
 
@@ -137,6 +139,7 @@ void tell_hdf5(const Options& options) {
     print_json(facts, options);
   else
     print_lines(facts, options);
+  if (facts.modes) warn_of_units(options.file, *facts.modes);
 }
 
 void tell_tables(const Options& options) {
@@ -147,18 +150,38 @@ void tell_tables(const Options& options) {
     fmt::print("{}\n", options.file);
     print_modal_data(data);
   }
+  warn_of_units(options.file, data);
+}
+
+/// What the file comes to as modal data; nothing when it holds no modes.
+std::optional<ModalData> understood(const UffFile& file, const std::string& name) {
+  try {
+    return uff_modal_data(file, name);
+  } catch (const InputError&) {
+    return std::nullopt;  // of functions, or of geometry alone
+  }
+}
+
+void print_understood(const ModalData& data) {
+  fmt::print("\nas modal data: {}\n", brief(data));
+  print_extent(data);
+  for (const std::string& line : data.provenance) fmt::print("  {}\n", line);
 }
 
 void tell_universal_file(const Options& options) {
   const UffFile file = read_uff(options.file);
+  const std::optional<ModalData> data = understood(file, options.file);
   if (options.json) {
     nlohmann::ordered_json out = json_of(file);
     out["file"] = options.file;
+    if (data) out["modal_data"] = json_of(*data);
     fmt::print("{}\n", json_text(out));
   } else {
     fmt::print("{}\n", options.file);
     print_universal_file(file);
+    if (data) print_understood(*data);
   }
+  if (data) warn_of_units(options.file, *data);
 }
 
 ExitCode run(const Options& options) {

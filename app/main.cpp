@@ -16,6 +16,7 @@
 #include "core/did_you_mean.h"
 #include "core/error.h"
 #include "core/hdf5.h"
+#include "core/version.h"
 
 namespace wishbone {
 
@@ -58,6 +59,8 @@ ExitCode lost_output(int error_number) {
 
 ExitCode run(int argc, char** argv) {
   CLI::App app("Rigid and flexible multibody simulation of vehicles.", "wishbone");
+  app.set_version_flag("--version", fmt::format("wishbone {} ({})", kVersion, kGitRevision),
+                       "Tell the version and end");
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 done, 1 a comparison failed, 2 bad input, 3 the numerics failed, the run was "
@@ -81,7 +84,7 @@ ExitCode run(int argc, char** argv) {
     if (e.get_exit_code() != 0)
       throw InputError(
           {"", e.what(), "", "`wishbone --help` and `wishbone COMMAND --help` tell what there is"});
-    app.exit(e);  // --help is an error to CLI11, and a success
+    app.exit(e);  // --help and --version are errors to CLI11, and successes
   }
   return exit_code;
 }

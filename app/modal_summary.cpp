@@ -8,8 +8,10 @@
 
 #include "app/meta_text.h"
 #include "app/text_table.h"
+#include "app/warnings.h"
 #include "identification/formats/modal_file.h"
 #include "identification/formats/mode_file.h"
+#include "identification/judgement/body_extent.h"
 
 namespace wishbone {
 
@@ -46,6 +48,16 @@ nlohmann::ordered_json json_of(const Vector3& u) {
   return {u.x(), u.y(), u.z()};
 }
 
+nlohmann::ordered_json json_of(const BodyExtent& extent) {
+  nlohmann::ordered_json out{{"size", json_of(extent.size)}};
+  if (!(extent.mass > 0)) return out;
+  out["mass"] = extent.mass;
+  out["mass_centre"] = json_of(extent.centre);
+  out["inertia"] = {json_of(extent.inertia.col(0)), json_of(extent.inertia.col(1)),
+                    json_of(extent.inertia.col(2))};
+  return out;
+}
+
 nlohmann::ordered_json json_of(const Support& support) {
   nlohmann::ordered_json out{{"springs", nlohmann::json::array()},
                              {"joints", nlohmann::json::array()},
@@ -60,6 +72,17 @@ nlohmann::ordered_json json_of(const Support& support) {
 }
 
 }  // namespace
+
+void print_extent(const ModalData& data) {
+  fmt::print("understood: {}\n", describe(body_extent(data)));
+}
+
+void warn_of_units(const std::string& file, const ModalData& data) {
+  auto doubt = doubt_of_units(body_extent(data), data.mode_count() > 0 ? data.omega[0] : 0);
+  if (!doubt) return;
+  doubt->where = file;
+  print_warnings({*doubt});
+}
 
 std::string brief(const ModalData& data) {
   std::string text = fmt::format("{} nodes, {} freedoms, {} modes", data.node_count(), data.freedom_count(),
@@ -82,6 +105,7 @@ void print_modal_data(const ModalData& data) {
   fmt::print("{} nodes{}, {} freedoms{}, {} modes, {} lines\n", data.node_count(),
              data.has_masses() ? fmt::format(" with {:.6g} kg", data.node_mass.sum()) : "",
              data.freedom_count(), data.is_complete() ? " (all)" : "", data.mode_count(), data.lines.size());
+  print_extent(data);
   if (data.mode_count() > 0) print_modes(data);
   print_support(data.support);
   fmt::print("\nprovenance{}\n", data.provenance.empty() ? ": unknown" : "");
@@ -94,7 +118,8 @@ nlohmann::ordered_json json_of(const ModalData& data) {
       {"nodes", data.node_count()},
       {"freedoms", data.freedom_count()},
       {"mass", data.has_masses() ? nlohmann::json(data.node_mass.sum()) : nlohmann::json()},
-      {"lines", data.lines.size()}};
+      {"lines", data.lines.size()},
+      {"understood", json_of(body_extent(data))}};
   out["modes"] = nlohmann::json::array();
   for (int j = 0; j < data.mode_count(); ++j)
     out["modes"].push_back({{"frequency_hz", hertz(data.omega[j])},

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <numbers>
 #include <string>
 #include <string_view>
 
 #include "app/meta_text.h"
 #include "app/text_table.h"
 #include "core/utf8.h"
+#include "identification/formats/uff/uff_mode_sets.h"
 #include "identification/formats/uff/uff_modes.h"
 #include "identification/formats/uff/uff_text.h"
 
@@ -45,13 +47,22 @@ std::string text_of(const UffFreedom& freedom) {
   return fmt::format("{} {}{}", freedom.node, freedom.direction < 0 ? "-" : "", kAxes[axis]);
 }
 
+double hertz(double omega) {
+  return omega / (2 * std::numbers::pi);
+}
+
 void print_shapes(const UffFile& file) {
   if (file.shapes.empty()) return;
-  TextTable table({"nodal result", "dataset", "line", "number", "frequency [Hz]", "nodes", "values each"}, 1);
-  for (const UffShape& shape : file.shapes)
+  TextTable table(
+      {"nodal result", "dataset", "line", "number", "frequency [Hz]", "damping [%]", "nodes", "values each"},
+      1);
+  for (const UffShape& shape : file.shapes) {
+    const UffOscillation oscillation = uff_oscillation(shape);
     table.add_row({analysis_name(shape.analysis), std::to_string(shape.dataset), std::to_string(shape.line),
-                   std::to_string(shape.number), brief(shape.frequency), std::to_string(shape.nodes.size()),
+                   std::to_string(shape.number), brief(hertz(oscillation.omega)),
+                   brief(100 * oscillation.damping_ratio), std::to_string(shape.nodes.size()),
                    fmt::format("{}{}", shape.values_per_node, shape.is_complex ? " complex" : "")});
+  }
   fmt::print("\n{}", table.text());
 }
 
@@ -72,11 +83,13 @@ void print_functions(const UffFile& file) {
 }
 
 nlohmann::ordered_json json_of(const UffShape& shape) {
+  const UffOscillation oscillation = uff_oscillation(shape);
   return {{"analysis", analysis_name(shape.analysis)},
           {"dataset", shape.dataset},
           {"line", shape.line},
           {"number", shape.number},
-          {"frequency_hz", json_number(shape.frequency)},
+          {"frequency_hz", json_number(hertz(oscillation.omega))},
+          {"damping_ratio", json_number(oscillation.damping_ratio)},
           {"nodes", shape.nodes.size()},
           {"values_per_node", shape.values_per_node},
           {"complex", shape.is_complex}};

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -47,6 +48,23 @@ std::string whole_number(const std::string& expression, const Source& where, Par
                     "write a counter within the brackets, such as {i} or {i + 1}"});
 }
 
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+
+/// "{N - 1}" in "link_{N - 1}": what stands in brackets behind a letter and begins with one; else nothing.
+std::string counter_of_name(const std::string& text) {
+  constexpr std::string_view kOfExpressions =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789+-*/() ";
+  for (std::size_t open = text.find('{'); open != std::string::npos; open = text.find('{', open + 1)) {
+    const std::size_t close = text.find_first_not_of(kOfExpressions, open + 1);
+    if (open == 0 || close == std::string::npos || text[close] != '}') continue;
+    if (is_letter(text[open - 1]) && is_letter(text[text.find_first_not_of(' ', open + 1)]))
+      return text.substr(open, close + 1 - open);
+  }
+  return "";
+}
+
 }  // namespace
 
 Repetition::Repetition(const YamlNode::Entry& repeat, std::string path, Parameters& parameters,
@@ -89,6 +107,17 @@ std::string fill_in_counters(const std::string& text, const Source& where, Param
     at = close + 1;
   }
   return filled + text.substr(at);
+}
+
+void refuse_counters(const std::string& text, const Source& where) {
+  const std::string shown = counter_of_name(text);
+  if (shown.empty()) return;
+  throw InputError(
+      {where.text(), fmt::format("'{}' is filled in within a repetition only, and this is none", shown),
+       fmt::format("'{}'", text),
+       fmt::format("write the number itself, or put this under 'repeat', such as 'repeat: {{i: [1, 1]}}', "
+                   "where '{}' may name its counters and parameters",
+                   shown)});
 }
 
 }  // namespace wishbone

@@ -35,4 +35,8 @@ class Repetition {
 /// Throws InputError at `where` when a bracket is not closed or the value is no whole number.
 std::string fill_in_counters(const std::string& text, const Source& where, Parameters& parameters);
 
+/// Throws InputError when a text outside of any repetition looks like a name with a counter, `link_{i}` or
+/// `link_{N - 1}`, which nothing would fill in.
+void refuse_counters(const std::string& text, const Source& where);
+
 }  // namespace wishbone

@@ -73,10 +73,14 @@ void Resolver::each_copy(const YamlNodePtr& node, const std::string& path, Add a
 }
 
 YamlNodePtr Resolver::resolve_scalar(const YamlNodePtr& node, const std::string& path) {
-  if (!parameters_.has_counters() || node->text.starts_with('=') || node->text.find('{') == std::string::npos)
+  if (node->text.starts_with('=') || node->text.find('{') == std::string::npos)
     return parameters_.evaluate(node, path);
   Source where = node->where;
   where.path = path;
+  if (!parameters_.has_counters()) {
+    if (path != "title") refuse_counters(node->text, where);  // a title may say what it likes
+    return parameters_.evaluate(node, path);
+  }
   auto filled = std::make_shared<YamlNode>(*node);
   filled->text = fill_in_counters(node->text, where, parameters_);
   filled->origin = node->text;
@@ -91,6 +95,7 @@ YamlNodePtr Resolver::resolve_mapping(const YamlNode& node, const std::string& p
     each_copy(entry.value, joined(path, entry.key), [&](const YamlNodePtr& copy) {
       Source where = entry.where;
       where.path = path;
+      if (!parameters_.has_counters()) refuse_counters(entry.key, where);
       const std::string key =
           parameters_.has_counters() ? fill_in_counters(entry.key, where, parameters_) : entry.key;
       const YamlNodePtr value = resolve(copy, joined(path, key));

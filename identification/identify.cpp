@@ -1,6 +1,7 @@
 #include "identification/identify.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <limits>
@@ -8,6 +9,7 @@
 #include "core/error.h"
 #include "core/version.h"
 #include "identification/judgement/judge.h"
+#include "identification/judgement/sensor_faults.h"
 #include "identification/methods/stiffness_from_modes.h"
 #include "identification/solution.h"
 
@@ -71,15 +73,21 @@ VectorX masses_of_nodes(const IdentificationTask& task, const ModalData& data, c
   return mass;
 }
 
+/// A negative stiffness is first of all the fault of odd sensors, where there are some.
+std::string remedy_of_no_stiffness(const std::vector<std::string>& sensor_doubts) {
+  if (!sensor_doubts.empty())
+    return fmt::format("correct what is odd in the measurement: {}", fmt::join(sensor_doubts, "; "));
+  return "check the stiffness of the support, for no more can be taken off than the modes were measured on; "
+         "expand fewer modes, if they were expanded";
+}
+
 ModalData as_modal_data(const IdentificationTask& task, const PreparedStructure& s,
                         const Solution& solution) {
   const Eigen::Index m = solution.modes.count();
   if (!(solution.modes.lambda.minCoeff() > 0))
-    throw InputError(
-        {"identification", "an identified mode has no stiffness",
-         fmt::format("lambda = {:.3g} rad2/s2", solution.modes.lambda.minCoeff()),
-         "check the stiffness of the support, for no more can be taken off than the modes were measured on; "
-         "expand fewer modes, if they were expanded"});
+    throw InputError({"identification", "an identified mode has no stiffness",
+                      fmt::format("lambda = {:.3g} rad2/s2", solution.modes.lambda.minCoeff()),
+                      remedy_of_no_stiffness(doubts_of_sensors(task.measured))});
   ModalData modes = s.data;
   modes.title = task.title;
   modes.node_mass = masses_of_nodes(task, s.data, solution);
@@ -101,7 +109,8 @@ CorrectedModel identified_matrices(const Identification& identification) {
 }
 
 Identification identify(const IdentificationTask& task) {
-  const PreparedStructure structure = prepare(task);
+  PreparedStructure structure = prepare(task);
+  for (std::string& doubt : doubts_of_sensors(task.measured)) structure.warnings.push_back(std::move(doubt));
   Solution solution = solve(task, structure, structure.measured());
   Identification result;
   result.title = task.title;

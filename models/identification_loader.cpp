@@ -103,6 +103,7 @@ class Reader {
     task_.measured = read_modes(keys_.required("measured"), support_);
     read_choices();
     if (const auto mass = keys_.optional("mass")) read_mass(*mass);
+    if (!keys_.has("mass")) take_mass_of_model();
     read_goal();
     if (const auto noise = keys_.optional("noise")) task_.noise = read_noise(*noise);
     if (const auto reference = keys_.optional("reference")) {
@@ -182,6 +183,15 @@ class Reader {
     } else {
       task_.rigid_body = read_rigid_body(value);
     }
+  }
+
+  /// The mass matrix of a model over the very freedoms of the modes, where nothing else tells their masses: consistent
+  /// masses, as finite-element programs store them.
+  void take_mass_of_model() {
+    if (task_.measured.has_masses() || task_.coverage != Coverage::kAsMeasured || !task_.model) return;
+    if (task_.model->M.rows() == 0 || task_.model->freedoms() != task_.measured.freedoms) return;
+    task_.mass = task_.model->M;
+    task_.measured.provenance.push_back("masses: the mass matrix of the model");
   }
 
   void read_choices() {

@@ -8,7 +8,9 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "identification/judgement/body_extent.h"
 #include "identification/judgement/mac.h"
+#include "identification/judgement/mass_products.h"
 #include "identification/judgement/reference.h"
 #include "identification/methods/clean_up.h"
 #include "identification/methods/residual.h"
@@ -59,9 +61,9 @@ void warn_of_data(const PreparedStructure& s, const Modes& unit, Judgement& judg
   constexpr double kLargeError = 0.1, kLargeImbalance = 0.05, kMostlyRigid = 0.5;
   if (judgement.input_orthogonality_error > kLargeError)
     judgement.warnings.push_back(fmt::format(
-        "the measured modes are not orthogonal in the given masses: largest product {:.2f}; check the "
+        "the measured modes are not orthogonal in the given masses: largest products {}; check the "
         "masses, the numbering and the directions",
-        judgement.input_orthogonality_error));
+        largest_mass_products(s.data.shapes, s.M + s.support.M_s)));
   if (s.data.support.empty()) {
     std::vector<int> rigid;
     const VectorX share = rigid_share(s.rigid, s.data.shapes, s.M);
@@ -81,6 +83,14 @@ void warn_of_data(const PreparedStructure& s, const Modes& unit, Judgement& judg
         "the measured modes contradict the given springs and masses: inertia and spring forces are out "
         "of balance by {:.1f} %",
         100 * error));
+}
+
+/// What was understood of the structure, and whether that can be.
+void tell_extent(const PreparedStructure& s, Judgement& judgement) {
+  const BodyExtent extent = body_extent(s.data, s.M);
+  judgement.notes.push_back("the structure as understood: " + describe(extent));
+  if (const auto doubt = doubt_of_units(extent, s.data.omega.size() > 0 ? s.data.omega[0] : 0))
+    judgement.warnings.push_back(fmt::format("{} ({}); {}", doubt->what, doubt->value, doubt->remedy));
 }
 
 void warn_of_result(const Solution& solution, Judgement& judgement) {
@@ -152,6 +162,7 @@ Judgement judge(const IdentificationTask& task, const PreparedStructure& s, cons
     judgement.rigid_body_error = (rigid.transpose() * (solution.M * modes.shapes)).cwiseAbs().maxCoeff();
   }
   list_condition_numbers(s, unit, judgement);
+  tell_extent(s, judgement);
   warn_of_data(s, unit, judgement);
   warn_of_result(solution, judgement);
   judge_noise(task, s, solution.modes, judgement);

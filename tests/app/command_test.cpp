@@ -42,6 +42,9 @@ class CommandTest : public testing::Test {
 
 TEST_F(CommandTest, HelpOfEveryCommandHasAnExample) {
   EXPECT_EQ(call("--help").code, 0);
+  const Answer version = call("--version");
+  EXPECT_EQ(version.code, 0);
+  EXPECT_THAT(version.text, testing::StartsWith("wishbone 0."));
   for (const std::string command : {"check", "compare", "convert", "extract", "info", "modes"}) {
     const Answer answer = call(command + " --help");
     EXPECT_EQ(answer.code, 0);

@@ -9,6 +9,7 @@
 #include "app/call.h"
 #include "identification/formats/csv_modal_data.h"
 #include "identification/formats/mode_file.h"
+#include "identification/formats/uff/uff_writer.h"
 #include "text_files.h"
 
 namespace wishbone {
@@ -16,6 +17,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 class ModalCommands : public testing::Test {
  protected:
@@ -114,6 +116,58 @@ TEST_F(ModalCommands, ConvertGoesToUniversalFilesAndBackWithinTheirDigits) {
   EXPECT_LT((read.omega - data_.omega).norm(), 1e-5 * data_.omega.norm());
   EXPECT_EQ(read.node_position, data_.node_position);
   EXPECT_FALSE(read.has_masses());
+}
+
+/// Two nodes at the ends of a bar, and a mode of it.
+UffFile bar_of(double length, int analysis) {
+  UffFile file;
+  file.nodes = {{1, 0, 0, 0, {0, 0, 0}}, {2, 0, 0, 0, {length, 0, 0}}};
+  UffShape mode;
+  mode.analysis = analysis;
+  mode.nodes = {1, 2};
+  mode.values = {1, 2, 3, 4, 5, 6};
+  mode.frequency = 40;
+  mode.eigenvalue = {-3, 300};
+  file.shapes = {mode};
+  return file;
+}
+
+TEST_F(ModalCommands, InfoTellsFrequencyAndDampingOfComplexModes) {
+  const std::string file = files_ / "complex.unv";
+  for (const int analysis : {3, 7})
+    for (const int dataset : {55, 2414}) {
+      UffFile bar = bar_of(1, analysis);
+      bar.shapes[0].dataset = dataset;
+      write_uff(file, bar);
+      EXPECT_THAT(call("info " + file).text, testing::ContainsRegex("47[.]75 +1 +2 +3"));
+      const auto json = nlohmann::json::parse(call("info --json " + file).text);
+      const auto& mode = json["nodal_results"][0];
+      EXPECT_NEAR(mode["frequency_hz"].get<double>(), std::hypot(3, 300) / (2 * std::numbers::pi), 1e-9);
+      EXPECT_NEAR(mode["damping_ratio"].get<double>(), 3 / std::hypot(3, 300), 1e-12);
+    }
+}
+
+TEST_F(ModalCommands, WhatWasAssumedAndUnderstoodIsTold) {
+  const std::string file = files_ / "mm.unv";
+  write_uff(file, bar_of(600, 2));
+  const auto told =
+      AllOf(HasSubstr("size 600 x 0 x 0 m; masses of nodes not known"),
+            HasSubstr("units: the file says none (no dataset 164), m and N assumed"),
+            HasSubstr("mm.unv: warning: a structure of this length has lower modes than these"));
+  EXPECT_THAT(call("info " + file).text, told);
+  const Answer converted = call("convert " + file + " " + (files_ / "mm.csv").string());
+  EXPECT_EQ(converted.code, 0);
+  EXPECT_THAT(converted.text, told);
+  // what the remedy says
+  UffFile stated = bar_of(600, 2);
+  stated.units = {5, "mm", 1, 1000, 1000, 1, 273.15};
+  write_uff(file, stated);
+  EXPECT_THAT(call("convert " + file + " " + (files_ / "m.csv").string()).text,
+              AllOf(HasSubstr("size 0.6 x 0 x 0 m"), HasSubstr("code 5 (mm, mN), length 0.001 m"),
+                    Not(HasSubstr("warning"))));
+  EXPECT_THAT(call("info " + mode_file_).text,
+              AllOf(HasSubstr("size 2.5 x 0 x 0 m; mass 7 kg, mass centre (1.429, 0, 0) m"),
+                    Not(HasSubstr("warning"))));
 }
 
 TEST_F(ModalCommands, InfoListsWhatAUniversalFileHolds) {

@@ -225,7 +225,26 @@ TEST_F(Document, RepetitionMaySelect) {
 
 TEST_F(Document, BracketsOutsideRepetitionsAreText) {
   EXPECT_EQ(value("t: a {b} c\n", "t"), "a {b} c");
-  EXPECT_EQ(load("s:\n  a_{i}: {x: 1}\n")->find("s")->value->entries[0].key, "a_{i}");
+  EXPECT_EQ(value("title: K_{eff}\n", "title"), "K_{eff}");
+  for (const char* text : {"{i}", "a_{1}", "a_{}", "a_{ }", "a_{i", "a_{i; j}"})
+    EXPECT_EQ(value(std::string("t: \"") + text + "\"\n", "t"), text);
+}
+
+TEST_F(Document, CountersOfNamesOutsideRepetitionsAreTold) {
+  EXPECT_EQ(
+      refusal("parameters: {N: 3}\ns: {bodies: [ground, \"link_{N - 1}\"]}\n"),
+      "main.yaml:2:22: s.bodies[2]: error: '{N - 1}' is filled in within a repetition only, and this is none "
+      "(got 'link_{N - 1}')\n"
+      "  write the number itself, or put this under 'repeat', such as 'repeat: {i: [1, 1]}', where '{N - 1}' "
+      "may "
+      "name its counters and parameters");
+  EXPECT_THAT(refusal("s:\n  a_{i}: {x: 1}\n"), testing::HasSubstr("within a repetition only"));
+  EXPECT_EQ(load("parameters: {N: 3}\ns:\n  last: {repeat: {i: [1, 1]}, body: \"link_{N - 1}\"}\n")
+                ->find("s")
+                ->value->find("last")
+                ->value->find("body")
+                ->value->text,
+            "link_2");
 }
 
 TEST_F(Document, BadRepetitionsAreTold) {

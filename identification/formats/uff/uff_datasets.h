@@ -21,7 +21,8 @@ void read_uff_units(UffInput& in, UffContents& contents);                // 164
 void read_uff_coordinate_systems(UffInput& in, UffContents& contents);   // 18
 void read_uff_coordinate_matrices(UffInput& in, UffContents& contents);  // 2420
 void read_uff_nodes(UffInput& in, UffContents& contents);                // 15
-void read_uff_nodes_in_double(UffInput& in, UffContents& contents);      // 2411
+void read_uff_nodes_in_double(UffInput& in, UffContents& contents);      // 781
+void read_uff_nodes_of_part(UffInput& in, UffContents& contents);        // 2411
 void read_uff_trace_line(UffInput& in, UffContents& contents);           // 82
 void read_uff_elements(UffInput& in, UffContents& contents);             // 2412
 void read_uff_data_at_nodes(UffInput& in, UffContents& contents);        // 55

@@ -50,13 +50,15 @@ struct UffCoordinateSystem {
   Matrix3 axes = Matrix3::Identity();  ///< columns: the unit vectors x, y, z in the reference system
 };
 
-/// Datasets 15 and 2411.
+/// Datasets 15, 781 and 2411. The position is in the definition system in 15 and 781, in the part's system in 2411,
+/// whatever export system that names beside it.
 struct UffNode {
   int number = 0;
-  int definition_system = 0;    ///< that the position is given in; 0: global
+  int definition_system = 0;    ///< that the position is given in; 0: global, as always in 2411
   int displacement_system = 0;  ///< that measurements at the node refer to; 0: global
   int color = 0;
   Vector3 position = Vector3::Zero();
+  int export_system = 0;  ///< of 2411: says nothing about the position
 };
 
 /// Dataset 82: a polyline through nodes, to draw the structure by.
@@ -175,14 +177,16 @@ struct UffUnused {
   std::string why;
 };
 
-/// Which dataset nodes are written as: 2411 keeps 17 digits of positions, 15 keeps 6.
-enum class UffNodeDataset { k2411, k15 };
+/// Which dataset nodes are written as: 2411 and 781 keep 17 digits of positions, 15 keeps 6; 2411 knows no definition
+/// systems.
+enum class UffNodeDataset { k2411, k781, k15 };
 
 struct UffFile {
   std::optional<UffHeader> header;
   std::optional<UffUnits> units;
   std::vector<UffCoordinateSystem> coordinate_systems;  ///< each number once
   std::vector<UffNode> nodes;                           ///< each number once
+  std::vector<UffNode> repeated_nodes;  ///< of `nodes`, once more in another definition system
   UffNodeDataset node_dataset = UffNodeDataset::k2411;  ///< for the writer; readers take either and leave it
   std::vector<UffTraceLine> trace_lines;
   std::vector<UffElement> elements;

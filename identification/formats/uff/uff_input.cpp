@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <utility>
 
@@ -20,6 +19,21 @@ constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 bool is_delimiter(std::string_view text) {
   return text.starts_with(kDelimiter) &&
          text.find_first_not_of(' ', kDelimiter.size()) == std::string_view::npos;
+}
+
+bool is_minus_one(std::string_view text) {
+  return trimmed(text) == "-1";
+}
+
+/// The first line of a text that is not blank, and the text behind it.
+std::string_view take_filled_line(std::string_view& text) {
+  std::string_view line;
+  while (line.empty() && !text.empty()) {
+    const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
+    line = trimmed(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return line;
 }
 
 }  // namespace
@@ -80,8 +94,40 @@ void UffInput::read_line_end() {
   }
 }
 
-bool UffInput::at_delimiter() const {
-  return !too_long_ && is_delimiter(text_);
+bool UffInput::at_delimiter() {
+  if (too_long_) return false;
+  if (is_delimiter(text_)) return true;
+  return is_minus_one(text_) && (without_trailing_blanks(text_) == opening_ || closes_here());
+}
+
+bool UffInput::at_opening() {
+  if (too_long_ || !is_minus_one(text_)) return false;
+  opening_ = without_trailing_blanks(text_);
+  return true;
+}
+
+/// A lone -1 may be a value too. It closes the dataset where the file ends behind it, or where another one opens:
+/// -1 and a number.
+bool UffInput::closes_here() {
+  const std::string ahead = text_ahead(0);
+  std::string_view rest = ahead;
+  const std::string_view next = take_filled_line(rest);
+  if (next.empty()) return bytes_left() <= kAhead;
+  const std::string_view number = take_filled_line(rest);
+  return is_minus_one(next) && !number.empty() && number.find_first_of("0123456789") == 0;
+}
+
+/// The next kAhead bytes, from `bytes` behind the current line.
+std::string UffInput::text_ahead(std::uintmax_t bytes) {
+  std::string text(kAhead, '\0');
+  stream_.clear();
+  const auto resume = static_cast<std::streamoff>(next_offset_ + (end_ - at_));
+  stream_.seekg(static_cast<std::streamoff>(next_offset_ + bytes));
+  stream_.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(stream_.gcount()));
+  stream_.clear();
+  stream_.seekg(resume);
+  return text;
 }
 
 bool UffInput::advance_in_dataset() {
@@ -130,16 +176,11 @@ void UffInput::skip_dataset() {
 
 bool UffInput::delimiter_follows(std::uintmax_t bytes) {
   if (bytes > bytes_left()) return false;
-  std::array<char, 96> tail{};
-  stream_.clear();
-  const auto resume = static_cast<std::streamoff>(next_offset_ + (end_ - at_));
-  stream_.seekg(static_cast<std::streamoff>(next_offset_ + bytes));
-  stream_.read(tail.data(), static_cast<std::streamsize>(tail.size()));
-  std::string_view text(tail.data(), static_cast<std::size_t>(stream_.gcount()));
-  stream_.clear();
-  stream_.seekg(resume);
+  const std::string ahead = text_ahead(bytes);
+  std::string_view text = ahead;
   text.remove_prefix(std::min(text.find_first_not_of("\r\n"), text.size()));
-  return is_delimiter(text.substr(0, text.find_first_of("\r\n")));
+  text = text.substr(0, text.find_first_of("\r\n"));
+  return is_delimiter(text) || without_trailing_blanks(text) == opening_;
 }
 
 void UffInput::read_binary(char* target, std::size_t bytes) {

@@ -24,7 +24,11 @@ class UffInput {
   /// Of the current line, without its end; at most kLongestLine bytes.
   std::string_view text() const { return text_; }
   std::size_t line() const { return line_; }  ///< from 1
-  bool at_delimiter() const;                  ///< "    -1" and nothing but blanks
+  /// "    -1" and nothing but blanks; -1 in other columns where the dataset was opened so, or where the lines that
+  /// follow tell that it is closed here.
+  bool at_delimiter();
+  /// Whether the current line, between two datasets, opens one: -1 in any columns, which then closes it too.
+  bool at_opening();
 
   /// Goes to the next line of the current dataset; false at its delimiter. Throws InputError at the end of
   /// the file.
@@ -63,8 +67,12 @@ class UffInput {
   static constexpr std::size_t kLongestLine = 4096;
 
  private:
+  static constexpr std::size_t kAhead = 256;  ///< bytes that are looked at before they are read
+
   bool fill();
   void read_line_end();
+  std::string text_ahead(std::uintmax_t bytes);
+  bool closes_here();
 
   std::istream& stream_;
   std::string name_;
@@ -74,6 +82,7 @@ class UffInput {
   std::vector<char> buffer_;
   std::size_t at_ = 0, end_ = 0;  ///< what is left of the buffer
   std::string text_;
+  std::string opening_ = "    -1";  ///< of the current dataset
   std::size_t line_ = 0;
   std::uintmax_t offset_ = 0;       ///< of the current line
   std::uintmax_t next_offset_ = 0;  ///< behind its end

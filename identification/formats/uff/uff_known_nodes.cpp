@@ -80,7 +80,8 @@ UffKnownNodes::UffKnownNodes(const UffFile& file, const std::vector<UffModeSet>&
     const auto count = counts.find(node.number);
     if (count == counts.end() || count->second < modes.size()) continue;
     column_of_[node.number] = static_cast<Eigen::Index>(nodes_.size());
-    nodes_.push_back({node.number, systems.frame(in_systems_ ? node.displacement_system : 0).axes, {}});
+    const UffFrame& frame = systems.frame(in_systems_ ? node.displacement_system : 0);
+    nodes_.push_back({node.number, frame.directions_at(systems.position(node)), {}});
   }
   for (const UffModeSet& mode : modes) {
     const UffMotions d = motions(mode);

@@ -49,14 +49,42 @@ std::string origin_of(const UffFile& file, const std::filesystem::path& path) {
   return origin;
 }
 
+/// Nodes that are listed once more in another system must be where they are.
+void check_repeated(const UffFile& file, UffSystems& systems, const std::string& where) {
+  std::unordered_map<int, const UffNode*> node_of;
+  for (const UffNode& node : file.nodes) node_of.emplace(node.number, &node);
+  for (const UffNode& again : file.repeated_nodes) {
+    const Vector3 p = systems.position(*node_of.at(again.number)), q = systems.position(again);
+    if ((p - q).norm() > 1e-5 * std::max(p.norm(), q.norm()))
+      throw InputError({where, "a node is defined twice, differently", fmt::format("node {}", again.number),
+                        "number each node once"});
+  }
+}
+
 void put_positions(const UffFile& file, const UffScale& scale, const std::string& where, ModalData& data) {
   UffSystems systems(file.coordinate_systems, where);
+  check_repeated(file, systems, where);
   data.node_position.resize(3, static_cast<Eigen::Index>(file.nodes.size()));
   for (const UffNode& node : file.nodes) {
-    data.node_position.col(data.node_count()) =
-        scale.metre * systems.frame(node.definition_system).global(node.position);
+    data.node_position.col(data.node_count()) = scale.metre * systems.position(node);
     data.node_ids.push_back(node.number);
   }
+  const auto say = [&](const char* what, auto&& system_of) {
+    const auto count = std::count_if(file.nodes.begin(), file.nodes.end(), [&](const UffNode& node) {
+      return !systems.is_global(system_of(node));
+    });
+    if (count > 0) data.provenance.push_back(fmt::format("{} nodes have {}", count, what));
+  };
+  say("definition coordinate systems: positions were brought into global axes",
+      [](const UffNode& node) { return node.definition_system; });
+  say("export coordinate systems (dataset 2411): positions were taken as those of the part, as the format "
+      "says",
+      [](const UffNode& node) { return node.export_system; });
+  if (std::any_of(file.coordinate_systems.begin(), file.coordinate_systems.end(),
+                  [](const UffCoordinateSystem& system) { return system.type != 0; }))
+    data.provenance.push_back(
+        "cylindrical coordinates were taken as r, theta, z, spherical ones as r, theta from the z axis, phi "
+        "about it; angles in degrees");
 }
 
 std::vector<std::array<int, 2>> segments(const UffTraceLine& trace) {

@@ -12,8 +12,10 @@ namespace wishbone {
 /// * Units: dataset 164, SI value = file value / factor; without it m and N are assumed. Mode shapes keep
 ///   their numbers, since a mode is known up to a factor; the modal mass psi^T M psi that belongs to them
 ///   becomes kg.
-/// * Axes: positions are turned and moved from definition coordinate systems, shapes turned from displacement
-///   coordinate systems (`axes`) into global axes. Rotations of shapes of six values per node are dropped.
+/// * Axes: positions are brought from definition coordinate systems (datasets 15 and 781; those of 2411 are in the
+///   part's system as they stand), shapes from displacement coordinate systems (`axes`) into global axes. Of
+///   cylindrical and spherical systems these are the directions of r, theta, z or r, theta, phi at each node.
+///   Rotations of shapes of six values per node are dropped.
 /// * Modes: normal modes (analysis type 2) and complex ones (3, 7), datasets 55 and 2414 at nodes, in
 ///   ascending frequency. Complex shapes become real (real_modes.h). Modes at zero frequency, below 1e-6 of
 ///   the highest, are left out. Damping is the viscous ratio, else half the hysteretic loss factor; modal

@@ -63,16 +63,9 @@ std::vector<const UffShape*> mode_shapes(const UffFile& file, std::vector<std::s
 
 UffModeSet mode_of(const UffShape& shape) {
   UffModeSet mode;
-  if (is_complex_mode(shape)) {
-    mode.omega = std::abs(shape.eigenvalue);
-    mode.damping_ratio = mode.omega > 0 ? -shape.eigenvalue.real() / mode.omega : 0;
-  } else {
-    const bool has_only_eigenvalue = shape.frequency == 0 && shape.eigenvalue.real() > 0;
-    mode.omega =
-        has_only_eigenvalue ? std::sqrt(shape.eigenvalue.real()) : 2 * std::numbers::pi * shape.frequency;
-    // loss factor eta = 2 zeta at resonance
-    mode.damping_ratio = shape.viscous_damping != 0 ? shape.viscous_damping : shape.hysteretic_damping / 2;
-  }
+  const UffOscillation oscillation = uff_oscillation(shape);
+  mode.omega = oscillation.omega;
+  mode.damping_ratio = oscillation.damping_ratio;
   const bool has_mass =
       shape.analysis == kUffNormalMode && rank_of(shape.quantity) == 0 && shape.modal_mass > 0;
   mode.modal_mass = has_mass ? shape.modal_mass : std::numeric_limits<double>::quiet_NaN();
@@ -170,6 +163,19 @@ void make_damping_positive(std::vector<UffModeSet>& modes, std::vector<std::stri
 }
 
 }  // namespace
+
+UffOscillation uff_oscillation(const UffShape& shape) {
+  const bool has_root = is_complex_mode(shape) && shape.eigenvalue != 0.0;
+  if (has_root) {
+    const double omega = std::abs(shape.eigenvalue);
+    return {omega, -shape.eigenvalue.real() / omega};
+  }
+  const bool has_only_eigenvalue =
+      shape.analysis == kUffNormalMode && shape.frequency == 0 && shape.eigenvalue.real() > 0;
+  return {has_only_eigenvalue ? std::sqrt(shape.eigenvalue.real()) : 2 * std::numbers::pi * shape.frequency,
+          // loss factor eta = 2 zeta at resonance
+          shape.viscous_damping != 0 ? shape.viscous_damping : shape.hysteretic_damping / 2};
+}
 
 std::vector<UffModeSet> uff_mode_sets(const UffFile& file, std::vector<std::string>& provenance) {
   std::vector<UffModeSet> modes = grouped(mode_shapes(file, provenance), provenance);

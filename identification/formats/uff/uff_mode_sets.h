@@ -16,6 +16,14 @@ struct UffModeSet {
   bool is_complex = false;             ///< a shape has imaginary parts
 };
 
+/// Undamped angular frequency and damping ratio of a nodal result: of complex modes |s| and -Re s / |s|, of normal ones
+/// those stated, or sqrt(lambda) where only the eigenvalue is; of others the frequency stated, which may be zero.
+struct UffOscillation {
+  double omega = 0;  ///< [rad/s]
+  double damping_ratio = 0;
+};
+UffOscillation uff_oscillation(const UffShape& shape);
+
 /// The oscillating modes of a file in ascending frequency, and what was left out on the way (appended to
 /// `provenance`): shapes that are no modes, velocities where there are displacements, datasets given twice,
 /// the conjugates of complex modes, modes of zero frequency. Datasets of equal mode, load case and frequency

@@ -39,10 +39,6 @@ void add(const UffInput& in, UffContents& contents, UffCoordinateSystem system) 
             "number each system once");
 }
 
-Vector3 position_from(const std::vector<double>& p) {
-  return {p[0], p[1], p[2]};
-}
-
 /// Programs write nodes twice, in single and in double precision; the same node elsewhere is an error.
 void add(const UffInput& in, UffContents& contents, const UffNode& node) {
   if (node.number < 1)
@@ -53,12 +49,32 @@ void add(const UffInput& in, UffContents& contents, const UffNode& node) {
     return;
   }
   const UffNode& first = contents.file.nodes[found->second];
-  const double size = std::max(first.position.norm(), node.position.norm());
-  if ((first.position - node.position).norm() > 1e-5 * size ||
-      first.definition_system != node.definition_system ||
-      first.displacement_system != node.displacement_system)
+  const bool is_elsewhere =
+      first.definition_system == node.definition_system &&
+      (first.position - node.position).norm() > 1e-5 * std::max(first.position.norm(), node.position.norm());
+  if (first.definition_system != node.definition_system) contents.file.repeated_nodes.push_back(node);
+  if (is_elsewhere || first.displacement_system != node.displacement_system)
     in.fail("a node is defined twice, differently", fmt::format("node {}", node.number),
             "number each node once");
+}
+
+/// Nodes of two lines each; `take_second` knows what the second field says.
+template <class TakeSecond>
+void read_long_nodes(UffInput& in, UffContents& contents, TakeSecond take_second) {
+  while (in.advance_in_dataset()) {
+    if (trimmed(in.text()).empty()) continue;
+    const std::vector<int> head = integers_of_line(in, 10, 4, "node number, coordinate systems and colour");
+    if (head.size() != 4)
+      in.fail_line("expected a node: number, two coordinate systems and colour", "complete the record");
+    in.require_filled("the coordinates of a node");
+    std::vector<double> p;
+    append_reals(in, 25, "a coordinate", p);
+    if (p.size() != 3)
+      in.fail_line(fmt::format("expected the three coordinates of node {}", head[0]), "complete the record");
+    UffNode node{head[0], 0, head[2], head[3], {p[0], p[1], p[2]}};
+    take_second(node, head[1]);
+    add(in, contents, node);
+  }
 }
 
 constexpr std::string_view kSystemRecord =
@@ -127,20 +143,14 @@ void read_uff_nodes(UffInput& in, UffContents& contents) {
   }
 }
 
-/// 4I10 / 3D25.16
+/// 4I10 / 3D25.16: coordinates in the definition system, the second field.
 void read_uff_nodes_in_double(UffInput& in, UffContents& contents) {
-  while (in.advance_in_dataset()) {
-    if (trimmed(in.text()).empty()) continue;
-    const std::vector<int> head = integers_of_line(in, 10, 4, "node number, coordinate systems and colour");
-    if (head.size() != 4)
-      in.fail_line("expected a node: number, two coordinate systems and colour", "complete the record");
-    in.require_filled("the coordinates of a node");
-    std::vector<double> p;
-    append_reals(in, 25, "a coordinate", p);
-    if (p.size() != 3)
-      in.fail_line(fmt::format("expected the three coordinates of node {}", head[0]), "complete the record");
-    add(in, contents, {head[0], head[1], head[2], head[3], position_from(p)});
-  }
+  read_long_nodes(in, contents, [](UffNode& node, int second) { node.definition_system = second; });
+}
+
+/// 4I10 / 3D25.16: "node coordinates in the part coordinate system", the second field is an export system.
+void read_uff_nodes_of_part(UffInput& in, UffContents& contents) {
+  read_long_nodes(in, contents, [](UffNode& node, int second) { node.export_system = second; });
 }
 
 }  // namespace wishbone

@@ -16,7 +16,7 @@ namespace {
 
 using Read = void (*)(UffInput&, UffContents&);
 
-constexpr std::array<std::pair<std::string_view, Read>, 12> kReaders = {{
+constexpr std::array<std::pair<std::string_view, Read>, 13> kReaders = {{
     {"15", read_uff_nodes},
     {"18", read_uff_coordinate_systems},
     {"55", read_uff_data_at_nodes},
@@ -25,7 +25,8 @@ constexpr std::array<std::pair<std::string_view, Read>, 12> kReaders = {{
     {"82", read_uff_trace_line},
     {"151", read_uff_header},
     {"164", read_uff_units},
-    {"2411", read_uff_nodes_in_double},
+    {"781", read_uff_nodes_in_double},
+    {"2411", read_uff_nodes_of_part},
     {"2412", read_uff_elements},
     {"2414", read_uff_analysis_data},
     {"2420", read_uff_coordinate_matrices},
@@ -80,7 +81,7 @@ UffFile read_uff(std::istream& stream, const std::string& name) {
   while (in.advance()) {
     if (trimmed(in.text()).empty()) continue;
     in.set_dataset("");
-    if (!in.at_delimiter()) {
+    if (!in.at_opening()) {
       pass_over_text(in, is_empty, contents.file);
       continue;
     }

@@ -46,12 +46,20 @@ void write(UffOutput& out, const std::vector<UffCoordinateSystem>& systems) {
   out.end_dataset();
 }
 
+void check_system(const UffNode& node) {
+  if (node.definition_system != 0)
+    throw InputError({"Universal File", "dataset 2411 has positions in the part's system only",
+                      fmt::format("node {} in system {}", node.number, node.definition_system),
+                      "write nodes as dataset 781 or 15"});
+}
+
 void write(UffOutput& out, const std::vector<UffNode>& nodes, UffNodeDataset dataset) {
   if (nodes.empty()) return;
-  const bool is_15 = dataset == UffNodeDataset::k15;
-  out.begin_dataset(is_15 ? "15" : "2411");
+  const bool is_15 = dataset == UffNodeDataset::k15, is_2411 = dataset == UffNodeDataset::k2411;
+  out.begin_dataset(is_15 ? "15" : is_2411 ? "2411" : "781");
   for (const UffNode& node : nodes) {
-    const std::string numbers = fmt::format("{:10}{:10}{:10}{:10}", node.number, node.definition_system,
+    const std::string numbers = fmt::format("{:10}{:10}{:10}{:10}", node.number,
+                                            is_2411 ? node.export_system : node.definition_system,
                                             node.displacement_system, node.color);
     const Vector3& p = node.position;
     if (is_15) {
@@ -167,6 +175,8 @@ void write_analysis_data(UffOutput& out, const UffShape& s) {
 
 void write_uff(const std::filesystem::path& path, const UffFile& file) {
   std::for_each(file.shapes.begin(), file.shapes.end(), check_shape);
+  if (file.node_dataset == UffNodeDataset::k2411)
+    std::for_each(file.nodes.begin(), file.nodes.end(), check_system);
   UffOutput out(path);
   if (file.header) write(out, *file.header);
   if (file.units) write(out, *file.units);

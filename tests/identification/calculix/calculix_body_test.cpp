@@ -7,10 +7,12 @@
 #include "core/error.h"
 #include "identification/calculix/calculix_structure.h"
 #include "identification/formats/calculix_matrices.h"
+#include "identification/identify.h"
 #include "identification/methods/attachment_modes.h"
 #include "identification/methods/lowest_modes.h"
 #include "identification/methods/lumping.h"
 #include "models/compile.h"
+#include "models/identification_loader.h"
 #include "models/scene_loader.h"
 #include "text_files.h"
 
@@ -87,6 +89,22 @@ TEST_F(CalculixBody, TakesItsNodesFromResultsToo) {
   const ModeSet results =
       modes_of(compile_body("{calculix: frame, nodes: places.frd, lumping: diagonal}", "3"));
   EXPECT_LE((deck.node_position - results.node_position).cwiseAbs().maxCoeff(), 2e-5);
+}
+
+TEST_F(CalculixBody, GivesAnIdentificationItsConsistentMasses) {
+  const auto task_of = [&](const std::string& rest) {
+    return load_identification(
+               files_.write("ident.yaml",
+                            "wishbone: 1\nidentification:\n  measured: {from: model, modes: 4}\n"
+                            "  model: {calculix: frame" +
+                                rest + "}\n"))
+        .task;
+  };
+  const IdentificationTask consistent = task_of("");
+  ASSERT_TRUE(consistent.mass);
+  const Judgement judgement = identify(consistent).judgement;
+  EXPECT_LT(judgement.input_orthogonality_error, 1e-6);
+  EXPECT_FALSE(task_of(", lumping: row_sum").mass);
 }
 
 TEST_F(CalculixBody, IsRefusedWithPlaceValueAndRemedy) {

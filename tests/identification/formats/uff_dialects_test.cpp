@@ -109,6 +109,28 @@ TEST(UffDialects, MinusOneInDataEndsNoDataset) {
   EXPECT_THAT(file.elements.at(0).nodes, ElementsAre(5, 6));
 }
 
+TEST(UffDialects, DelimitersMayStandInOtherColumns) {
+  for (const char* delimiter : {"-1", " -1", "  -1", "   -1", "     -1", "        -1", "\t-1", "-1   "})
+    expect_node_4(read_text(replaced(kNode, "    -1", delimiter)));
+  const std::string twice = "    -1\n   151\nmodel\n    -1\n" + kNode;
+  expect_node_4(read_text(replaced(twice, "    -1", "-1")));
+  for (std::size_t at = twice.find("    -1"); at != std::string::npos; at = twice.find("    -1", at + 1)) {
+    std::string one_moved = twice;
+    expect_node_4(read_text(one_moved.replace(at, 6, "-1")));
+  }
+}
+
+TEST(UffDialects, ALoneMinusOneMayBeAValue) {
+  const std::string head =
+      "    -1\n    58\n\n\n\n\n\n 1 0 0 0 NONE 1 1 NONE 0 0\n 2 3 1 0.0 0.5 0.0\n 17 0 0 0 NONE NONE\n"
+      " 12 0 0 0 NONE NONE\n 0 0 0 0 NONE NONE\n 0 0 0 0 NONE NONE\n";
+  for (const std::string& tail : {std::string(), kNode}) {
+    const UffFile file = read_text(head + "-1\n2.5\n-1\n    -1\n" + tail);
+    ASSERT_EQ(file.functions.size(), 1u);
+    EXPECT_THAT(std::get<std::vector<float>>(file.functions[0].values), ElementsAre(-1, 2.5, -1));
+  }
+}
+
 TEST(UffDialects, ATraceLineMayBeFilledUpWithZeros) {
   const UffFile file = read_text(
       "    -1\n    82\n         1         2         1\nNONE\n         5         6         0         0        "

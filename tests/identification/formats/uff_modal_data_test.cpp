@@ -3,9 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
 #include <cmath>
 #include <complex>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -138,6 +143,7 @@ UffFile with_turned_systems() {
   UffFile file = two_nodes();
   file.coordinate_systems = {{1, 0, 0, 0, "one", {10, 0, 0}, quarter},
                              {2, 0, 1, 0, "two", {0, 1, 0}, quarter}};
+  file.node_dataset = UffNodeDataset::k781;
   file.nodes[0].definition_system = 1;
   file.nodes[0].displacement_system = 1;
   file.nodes[1].definition_system = 2;
@@ -154,6 +160,95 @@ TEST(UffModalData, PositionsAndShapesAreTurnedIntoGlobalAxes) {
   EXPECT_LT((data.shapes.col(0) - (VectorX(6) << -2, 1, 3, -4, -5, 6).finished()).norm(), 1e-12);
   EXPECT_THAT(text_of(data.provenance),
               HasSubstr("2 nodes have displacement coordinate systems: shapes were turned"));
+}
+
+/// Five nodes on a straight line, each with its own displacement system, and a mode in which the line translates along
+/// (1, 2, 3) as each system sees it. Datasets 15 and 781 give positions in system 30, 2411 in the part's system.
+UffFile straight_line(UffNodeDataset dataset) {
+  UffFile file;
+  file.node_dataset = dataset;
+  const auto turned = [](double angle, const Vector3& axis) {
+    return Matrix3(Eigen::AngleAxisd(angle, axis.normalized()));
+  };
+  file.coordinate_systems = {{30, 0, 0, 0, "definition", {1, -2, 0.5}, turned(0.7, {1, 1, 0})}};
+  UffShape mode = normal_mode(5, {});
+  for (int i = 0; i < 5; ++i) {
+    const UffCoordinateSystem sensor{i + 1, 0, 0, 0, "sensor", {0, 0, 0}, turned(0.4 * i, {1, 1.0 * i, 2})};
+    file.coordinate_systems.push_back(sensor);
+    const Vector3 global(0.1 * i, 0.2 * i, -0.3 * i);
+    const UffCoordinateSystem& definition = file.coordinate_systems[0];
+    const bool in_part = dataset == UffNodeDataset::k2411;
+    file.nodes.push_back({i + 1, in_part ? 0 : 30, i + 1, 0,
+                          in_part ? global : definition.axes.transpose() * (global - definition.origin),
+                          in_part ? 30 : 0});
+    mode.nodes.push_back(i + 1);
+    const Vector3 local = sensor.axes.transpose() * Vector3(1, 2, 3);
+    mode.values.insert(mode.values.end(), local.data(), local.data() + 3);
+  }
+  file.shapes = {mode};
+  return file;
+}
+
+TEST(UffModalData, PositionsFollowTheDefinitionSystemOrThePartAndShapesTheDisplacementSystem) {
+  for (const UffNodeDataset dataset : {UffNodeDataset::k15, UffNodeDataset::k781, UffNodeDataset::k2411}) {
+    const ModalData data = data_of(straight_line(dataset));
+    ASSERT_EQ(data.freedom_count(), 15);
+    for (int i = 0; i < 5; ++i) {
+      EXPECT_LT((data.node_position.col(i) - i * Vector3(0.1, 0.2, -0.3)).norm(), 2e-5) << i;
+      EXPECT_LT((data.shapes.col(0).segment<3>(3 * i) - Vector3(1, 2, 3)).norm(), 5e-5) << i;
+    }
+    EXPECT_THAT(
+        text_of(data.provenance),
+        HasSubstr(dataset == UffNodeDataset::k2411 ? "5 nodes have export coordinate systems (dataset 2411)"
+                                                   : "5 nodes have definition coordinate systems"));
+  }
+}
+
+TEST(UffModalData, DoublePrecisionNodesOfDataset2411AreNotWrittenInDefinitionSystems) {
+  UffFile file = straight_line(UffNodeDataset::k781);
+  file.node_dataset = UffNodeDataset::k2411;
+  EXPECT_THAT(refusal_of(file), HasSubstr("positions in the part's system only"));
+}
+
+TEST(UffModalData, CurvedCoordinatesBecomeGlobalOnes) {
+  constexpr double kRoot = std::numbers::sqrt2 / 2;
+  UffFile file;
+  file.node_dataset = UffNodeDataset::k781;
+  file.coordinate_systems = {{4, 1, 0, 0, "cylindrical", {1, 0, 0}, Matrix3::Identity()},
+                             {5, 2, 0, 0, "spherical", {0, 1, 0}, Matrix3::Identity()}};
+  // (r, theta, z) = (2, 90 deg, 3); on the axis, where theta tells nothing; (r, theta, phi) = (2, 45 deg, 90 deg)
+  file.nodes = {{1, 4, 4, 0, {2, 90, 3}}, {2, 4, 4, 0, {0, 0, 7}}, {3, 5, 5, 0, {2, 45, 90}}};
+  file.shapes = {normal_mode(1, {10, 20, 30, 10, 20, 30, 10, 20, 30})};
+  const ModalData data = data_of(file);
+  EXPECT_LT((data.node_position.col(0) - Vector3(1, 2, 3)).norm(), 1e-12);
+  EXPECT_LT((data.node_position.col(1) - Vector3(1, 0, 7)).norm(), 1e-12);
+  EXPECT_LT((data.node_position.col(2) - Vector3(0, 1 + 2 * kRoot, 2 * kRoot)).norm(), 1e-12);
+  EXPECT_LT((data.shapes.col(0).segment<3>(0) - Vector3(-20, 10, 30)).norm(), 1e-12);
+  EXPECT_LT((data.shapes.col(0).segment<3>(3) - Vector3(10, 20, 30)).norm(), 1e-12);
+  // e_r = (0, 1, 1)/sqrt(2), e_theta = (0, 1, -1)/sqrt(2), e_phi = (-1, 0, 0)
+  EXPECT_LT((data.shapes.col(0).segment<3>(6) - Vector3(-30, 30 * kRoot, -10 * kRoot)).norm(), 1e-12);
+  EXPECT_THAT(text_of(data.provenance), HasSubstr("angles in degrees"));
+}
+
+TEST(UffModalData, ANodeListedInTwoSystemsMustBeInOnePlace) {
+  const auto listed_twice = [](const Vector3& in_system) {
+    std::string text = "    -1\n    18\n         3         0         0         0         1\nSYS\n";
+    text += "  1.00000E+00  0.00000E+00  0.00000E+00  2.00000E+00  0.00000E+00  0.00000E+00\n";
+    text += "  1.00000E+00  0.00000E+00  1.00000E+00\n    -1\n    -1\n    15\n";
+    text += fmt::format("{:10}{:10}{:10}{:10}{:13.5E}{:13.5E}{:13.5E}\n    -1\n", 1, 3, 0, 0, in_system.x(),
+                        in_system.y(), in_system.z());
+    text += fmt::format("    -1\n  2411\n{:10}{:10}{:10}{:10}\n{:25.16E}{:25.16E}{:25.16E}\n    -1\n", 1, 0,
+                        0, 0, 3.0, 4.0, 5.0);
+    UffFile file;
+    file.shapes = {normal_mode(1, {1, 2, 3})};
+    write_uff(kFiles / "mode.unv", file);
+    std::ifstream mode(kFiles / "mode.unv");
+    text.append(std::istreambuf_iterator<char>(mode), {});
+    std::ofstream(kFiles / "twice.unv") << text;
+    return read_uff_modal_data(kFiles / "twice.unv");
+  };
+  EXPECT_LT((listed_twice({2, 4, 5}).node_position.col(0) - Vector3(3, 4, 5)).norm(), 1e-12);
+  EXPECT_THAT(message_of<InputError>([&] { listed_twice({3, 4, 5}); }), HasSubstr("a node is defined twice"));
 }
 
 TEST(UffModalData, ShapesOfDataset2414AreGlobalUnlessOneSaysOtherwise) {
@@ -187,8 +282,11 @@ TEST(UffModalData, SystemsThatCannotBeFollowedAreRefused) {
   file.coordinate_systems[0].reference = 2;
   EXPECT_THAT(refusal_of(file), HasSubstr("in a circle"));
   file = with_turned_systems();
-  file.coordinate_systems[0].type = 1;
-  EXPECT_THAT(refusal_of(file), HasSubstr("must be Cartesian"));
+  file.coordinate_systems[0].type = 1;  // which system 2 refers to
+  EXPECT_THAT(refusal_of(file), HasSubstr("refers to one that is not Cartesian (got coordinate system 2)"));
+  file = with_turned_systems();
+  file.coordinate_systems[1].type = 3;
+  EXPECT_THAT(refusal_of(file), HasSubstr("of type 3, which there is none of"));
   file = with_turned_systems();
   file.coordinate_systems.clear();
   for (UffNode& node : file.nodes) node.definition_system = node.displacement_system = 1;

@@ -47,14 +47,15 @@ TEST(UffRoundTrip, OfHeaderAndUnitsIsExact) {
 TEST(UffRoundTrip, OfNodesElementsAndLinesIsExact) {
   UffFile file;
   file.nodes = {{7, 0, 3, 11, {1.0 / 3, -2e-17, 1e101}},
-                {2000000000, 3, 0, 1, {-1.2345678901234567e-101, 0, -5}}};
+                {2000000000, 0, 0, 1, {-1.2345678901234567e-101, 0, -5}, 3}};
   file.elements = {{1, 11, 2, 3, 4, {7, 2000000000}}, {2, 116, 1, 1, 8, std::vector<int>(20, 7)}};
   file.trace_lines = {{1, 5, "a line", {7, 2000000000, 0, 7, 7, 7, 7, 7, 7, 7}}};
   const UffFile back = written_and_read(file);
   ASSERT_EQ(back.nodes.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(back.nodes[i].number, file.nodes[i].number);
-    EXPECT_EQ(back.nodes[i].definition_system, file.nodes[i].definition_system);
+    EXPECT_EQ(back.nodes[i].definition_system, 0);
+    EXPECT_EQ(back.nodes[i].export_system, file.nodes[i].export_system);
     EXPECT_EQ(back.nodes[i].displacement_system, file.nodes[i].displacement_system);
     EXPECT_EQ(back.nodes[i].position, file.nodes[i].position);
     EXPECT_EQ(back.elements[i].nodes, file.elements[i].nodes);
@@ -64,6 +65,17 @@ TEST(UffRoundTrip, OfNodesElementsAndLinesIsExact) {
   ASSERT_EQ(back.trace_lines.size(), 1u);
   EXPECT_EQ(back.trace_lines[0].name, "a line");
   EXPECT_EQ(back.trace_lines[0].nodes, file.trace_lines[0].nodes);
+}
+
+TEST(UffRoundTrip, OfNodesInDataset781KeepsTheirSystemsAndAllDigits) {
+  UffFile file;
+  file.nodes = {{7, 1, 3, 11, {1.0 / 3, -2e-17, 12345.678}}};
+  file.node_dataset = UffNodeDataset::k781;
+  const UffFile back = written_and_read(file);
+  ASSERT_EQ(back.nodes.size(), 1u);
+  EXPECT_EQ(back.nodes[0].definition_system, 1);
+  EXPECT_EQ(back.nodes[0].displacement_system, 3);
+  EXPECT_EQ(back.nodes[0].position, file.nodes[0].position);
 }
 
 TEST(UffRoundTrip, OfNodesInDataset15KeepsSixDigits) {
