@@ -9,8 +9,8 @@
 #include "app/body_modes_text.h"
 #include "app/closure_text.h"
 #include "app/command.h"
-#include "app/warnings.h"
 #include "app/text_table.h"
+#include "app/warnings.h"
 #include "models/scene_loader.h"
 
 namespace wishbone {
@@ -63,6 +63,8 @@ void print_lines(const Scene& scene, const Plan& plan) {
   print_joints(plan.joints);
   print_closures(plan);
   print_list("redundant closure rows, left out", plan.redundant_rows);
+  print_list("speeds that follow from the closures and from those that are given [m/s, rad/s]",
+             plan.speeds_changed);
   print_list("tree", plan.tree);
   for (const BodyModes& body : plan.modes) fmt::print("\n{}", text_of(body));
   print_list("identified", plan.identified);

@@ -1,7 +1,9 @@
 #include "solver/transient.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
@@ -34,7 +36,8 @@ class Run {
 
   void start(TransientSummary& summary) {
     summary.integrator = resolve(options_.integrator, system_);
-    summary.assembly = assemble(system_, state_, ws_);
+    summary.assembly = assemble(system_, state_, ws_, options_.given);
+    summary.warnings = summary.assembly.warnings;
     update_positions<double>(system_, state_.t, state_.q, ws_);
     update_markers<double>(system_, ws_);
     initialize_segments(system_, ws_);
@@ -50,6 +53,7 @@ class Run {
         const Integrator::Step step = integrator_->step(stop);
         t = step.t;
         summary.t_end = t;
+        t_reached_ = t;
         ++steps_;
         watch_singular_positions(t);
         emit_until(t);
@@ -66,12 +70,49 @@ class Run {
     summary.message = "complete";
   }
 
+  /// A failure next to a singular position into which a motion drives the mechanism is that of the motion: beyond it no pose
+  /// follows.
+  [[nodiscard]] NumericsError explained(const NumericsError& error) const {
+    if (!near_singular(ws_) || ws_.closure.least_row < 0) return error;
+    const std::vector<std::string> motions = motions_against(ws_.closure.least_row);
+    if (motions.empty()) return error;
+    return NumericsError({fmt::format("t = {:.9g} s, {}", t_reached_, fmt::join(motions, ", ")),
+                          "the mechanism cannot follow the prescribed motion",
+                          fmt::format("at the end of its reach, {} closes no further",
+                                      system_.row_name(ws_.closure.least_row)),
+                          "shorten the motion, or drive another joint where this one turns back"});
+  }
+
   void report(TransientSummary& summary) const {
     summary.singular_passages = watch_.passages();
+    // that a failed run stands at a singular position does not mean that it has passed
+    if (summary.status == TransientSummary::Status::failed)
+      std::erase_if(summary.singular_passages, [&](const SingularPassage& p) {
+        return p.t > summary.t_end - 1e-6 * std::max(1.0, summary.t_end);
+      });
     summary.statistics = integrator_ ? integrator_->statistics() : Statistics{};
   }
 
  private:
+  /// Joints and closures that move as prescribed at the end of the last step, in the loops of a closure row.
+  std::vector<std::string> motions_against(int row) const {
+    const auto closure = std::ranges::find_if(
+        system_.closures, [&](const Closure& c) { return row >= c.row_start && row < c.row_start + c.rows; });
+    const auto moves = [&](const Motion& motion) { return motion.at(t_reached_).rate != 0; };
+    std::vector<std::string> names;
+    for (const int i : closure->path)
+      if (const auto* joint = std::get_if<PrescribedJoint>(&system_.bodies[i].joint);
+          joint != nullptr && moves(joint->motion))
+        names.push_back("joint '" + system_.bodies[i].joint_name + "'");
+    for (const Closure& other : system_.closures) {
+      const Motion* motion = drive(other.joint);
+      if (motion == nullptr || !moves(*motion)) continue;
+      if (std::ranges::find_first_of(other.path, closure->path) != other.path.end())
+        names.push_back("'" + other.name + "'");
+    }
+    return names;
+  }
+
   double output_time(long k) const { return static_cast<double>(k) * options_.interval; }
 
   void emit() {
@@ -190,6 +231,7 @@ class Run {
   bool counts_turns_;
   long next_output_ = 0;
   long steps_ = 0;
+  double t_reached_ = 0;  // end of the last step [s]
   double t_patience_ = 0;
 };
 
@@ -205,7 +247,7 @@ TransientSummary run_transient(const System& system, State state, const Transien
     run.advance(keep_going, summary);
   } catch (const NumericsError& error) {
     summary.status = TransientSummary::Status::failed;
-    summary.message = error.what();
+    summary.message = run.explained(error).what();
   }
   run.report(summary);
   return summary;
