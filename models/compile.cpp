@@ -41,9 +41,9 @@ class Compiler {
     compiled.identified = std::move(modes_.identified);
     compiled.modes = std::move(modes_.tables);
     std::tie(compiled.system, compiled.initial) = std::move(builder_).build();
-    set_start(scene_, builder_, compiled.system, compiled.initial);
     check_recoveries(scene_, builder_, compiled.system);
     compiled.warnings = scene_.warnings;
+    set_start(scene_, builder_, compiled.system, compiled.initial, compiled.warnings);
     std::ranges::move(warnings_of(compiled.identified, compiled.modes),
                       std::back_inserter(compiled.warnings));
     compiled.observer = observer(compiled.system);

@@ -48,9 +48,9 @@ struct Mechanism {
     std::tie(system, state) = std::move(builder).build();
   }
 
-  void assemble() {
+  AssemblyReport assemble() {
     Workspace ws(system);
-    wishbone::assemble(system, state, ws, builder.given());
+    return wishbone::assemble(system, state, ws, builder.given());
   }
 
   std::vector<RigidMotion> motions(const std::vector<int>& order) const {
@@ -78,9 +78,28 @@ std::vector<int> in_order_of(const SystemBuilder& builder, const Mechanism& mech
   return order;
 }
 
+/// Whether the mechanism moves on its closures as it should. Where it does not, and bodies deform, this is left to them: the pose
+/// stays closed if it can be.
+bool close(Mechanism& mechanism, bool deforms, Warnings& warnings) {
+  constexpr double kContradiction = 1e-8;  // of redundant rows that motions open [m/s, rad/s]
+  State last = mechanism.state;
+  try {
+    return mechanism.assemble().velocity_residual <= kContradiction;
+  } catch (const OpenClosures&) {
+    if (!deforms) throw;
+  } catch (const InputError& error) {
+    if (!deforms) throw;
+    warnings.push_back(error.diagnostic());
+    warnings.back().remedy = "the flexible bodies start deforming; " + warnings.back().remedy;
+  }
+  mechanism.state = last;
+  return false;
+}
+
 }  // namespace
 
-void set_start(const Scene& scene, const SystemBuilder& builder, const System& system, State& initial) {
+void set_start(const Scene& scene, const SystemBuilder& builder, const System& system, State& initial,
+               Warnings& warnings) {
   const bool guided = guides(scene);
   if (!guided && scene_tree(scene).roles == start_tree(scene).roles) return;  // starts as it is
   const Scene rigid = rigid_scene(scene, builder, system);
@@ -92,14 +111,11 @@ void set_start(const Scene& scene, const SystemBuilder& builder, const System& s
   }
   Mechanism mechanism(rigid, false);
   if (guided) mechanism.state.q = q;
-  const State given = mechanism.state;
-  try {
-    mechanism.assemble();
-  } catch (const OpenClosures&) {
-    mechanism.state = given;
-  }
+  const bool moves = close(mechanism, !system.flexible.empty(), warnings);
+  const VectorX v = initial.v;
   Workspace ws(system);
   set_rigid_motions(system, mechanism.motions(in_order_of(builder, mechanism)), initial, ws);
+  if (!moves) initial.v = v;
 }
 
 }  // namespace wishbone

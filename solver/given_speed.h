@@ -20,7 +20,8 @@ struct GivenSpeed {
   double value = 0;
   bool is_angle = true;  ///< [rad/s] rather than [m/s]
   Of of = Of::speed;
-  int index = 0;  ///< of the speed in v; while a system is built, among those of the joint that carries `body`
+  int index =
+      0;  ///< of the speed in v; while a system is built, among those of the joint that carries `body`
   int body = -1;  ///< while a system is built, of a speed
   int axis = 0;   ///< of `turning` and `travel`
   Gauge gauge;

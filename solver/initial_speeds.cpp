@@ -133,12 +133,14 @@ struct Conflict {
 Diagnostic describe(const Conflict& conflict) {
   const GivenSpeed& given = conflict.given;
   const std::string value = shown(conflict.possible, given);
-  const std::string follows =
-      conflict.others.empty() ? "the joints leave it" : fmt::format("{} leave it", fmt::join(conflict.others, ", "));
+  const std::string follows = conflict.others.empty()
+                                  ? "the joints leave it"
+                                  : fmt::format("{} leave it", fmt::join(conflict.others, ", "));
   return {given.where.empty() ? given.name : given.where, "",
           fmt::format("{} is given {}, {} {}", given.name, shown(given.value, given), follows, value),
           conflict.others.empty()
-              ? fmt::format("leave this speed out, or give {}; 'wishbone plan' says what closes the mechanism", value)
+              ? fmt::format(
+                    "leave this speed out, or give {}; 'wishbone plan' says what closes the mechanism", value)
               : fmt::format("leave one of these speeds out, or give {}", value)};
 }
 
@@ -185,7 +187,8 @@ void solve_given_speeds(const System& system, const std::vector<GivenSpeed>& giv
                         Workspace& ws, Warnings& warnings) {
   const std::vector<int>& kept = ws.closure.kept;
   const auto n_kept = static_cast<Eigen::Index>(kept.size());
-  Staircase rows(system.nv, std::min<Eigen::Index>(system.nv, n_kept + static_cast<Eigen::Index>(given_speeds.size())));
+  Staircase rows(system.nv,
+                 std::min<Eigen::Index>(system.nv, n_kept + static_cast<Eigen::Index>(given_speeds.size())));
   calc_closure_factor(system, ws);
   for (Eigen::Index i = 0; i < n_kept; ++i) rows.add(ws.closure.U.col(i), -ws.Phi_rate[kept[i]], 0);
 

@@ -22,7 +22,7 @@ bool has_speeds(const std::vector<GivenSpeed>& given, const State& state, const 
 ///
 /// @param warnings takes the given speeds that differ in their last digits from what the others leave
 /// @throws InputError naming the given speeds that contradict each other, or the one that the closures do not allow
-void solve_given_speeds(const System& system, const std::vector<GivenSpeed>& given, State& state, Workspace& ws,
-                        Warnings& warnings);
+void solve_given_speeds(const System& system, const std::vector<GivenSpeed>& given, State& state,
+                        Workspace& ws, Warnings& warnings);
 
 }  // namespace wishbone

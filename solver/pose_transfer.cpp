@@ -89,7 +89,8 @@ void set_rigid_motions(const System& system, const std::vector<RigidMotion>& mot
     const RigidMotion wanted = motion_across(body, inboard_frame(system, body, motions, ws), motions[i]);
     std::visit(
         [&](const auto& joint) {
-          set_coordinates(joint, state.t, wanted, state.q.data() + body.q_start, state.v.data() + body.v_start);
+          set_coordinates(joint, state.t, wanted, state.q.data() + body.q_start,
+                          state.v.data() + body.v_start);
         },
         body.joint);
   }

@@ -19,8 +19,8 @@ bodies:
 joints:
   axle: {type: revolute, bodies: [ground, arm], at: [0, 0, 0], axis: [0, 0, 1], motion: swing}
   tried: {bodies: )" +
-         std::string(first_is_arm ? "[arm, block]" : "[block, arm]") + ", at: [1, 0, 0], cut: " +
-         (cut ? "true" : "false") + ", " + joint + R"(}
+         std::string(first_is_arm ? "[arm, block]" : "[block, arm]") +
+         ", at: [1, 0, 0], cut: " + (cut ? "true" : "false") + ", " + joint + R"(}
 motions:
   swing: {expression: 0.4*t + 1.5*t^2}
 )" + motions +
@@ -63,7 +63,8 @@ INSTANTIATE_TEST_SUITE_P(
         Tried{"Prismatic", "type: prismatic, axis: [0.3, 0.1, -1]", ""},
         Tried{"DrivenPrismatic", "type: prismatic, axis: [0.3, 0.1, -1], motion: drive", kDrive},
         Tried{"Cylindrical", "type: cylindrical, axis: [0.3, 0.1, -1]", ""},
-        Tried{"DrivenCylindrical", "type: cylindrical, axis: [0.3, 0.1, -1], motion: {travel: drive}", kDrive},
+        Tried{"DrivenCylindrical", "type: cylindrical, axis: [0.3, 0.1, -1], motion: {travel: drive}",
+              kDrive},
         Tried{"Screw", "type: screw, axis: [0, 0.1, -1], pitch: 0.02", ""},
         Tried{"Universal", "type: universal, axis: [1, 0, 0], second_axis: [0, 1, 0]", ""},
         Tried{"ConstantVelocity", "type: constant_velocity, axis: [0, 0, 1]", ""},
