@@ -65,6 +65,8 @@ void print_lines(const Scene& scene, const Plan& plan) {
   print_joints(plan.joints);
   print_closures(plan);
   print_list("redundant closure rows, left out", plan.redundant_rows);
+  print_list("speeds that follow from the closures and from those that are given [m/s, rad/s]",
+             plan.speeds_changed);
   print_list("tree", plan.tree);
   for (const BodyModes& body : plan.modes) fmt::print("\n{}", text_of(body));
   print_list("identified", plan.identified);

@@ -14,6 +14,7 @@
 #include "models/compile_loads.h"
 #include "models/compile_recoveries.h"
 #include "models/scene_attachment.h"
+#include "models/start.h"
 #include "solver/system_builder.h"
 
 namespace wishbone {
@@ -30,6 +31,7 @@ class Compiler {
     for (int b = 0; b < static_cast<int>(scene_.bodies.size()); ++b) add_body(b);
     joints_.add_joints();
     joints_.add_closures();
+    joints_.give_speeds();
     for (const Scene::Spring& spring : scene_.springs)
       builder_.add_force(SpringDamper(spring.name, marker(spring.from), marker(spring.to), spring.stiffness,
                                       spring.damping, spring.free_length));
@@ -41,10 +43,12 @@ class Compiler {
     std::tie(compiled.system, compiled.initial) = std::move(builder_).build();
     check_recoveries(scene_, builder_, compiled.system);
     compiled.warnings = scene_.warnings;
+    set_start(scene_, builder_, compiled.system, compiled.initial, compiled.warnings);
     std::ranges::move(warnings_of(compiled.identified, compiled.modes),
                       std::back_inserter(compiled.warnings));
     compiled.observer = observer(compiled.system);
     compiled.transient = transient();
+    compiled.transient.given = builder_.given();
     return compiled;
   }
 
@@ -57,7 +61,6 @@ class Compiler {
     const int index = body.is_flexible()
                           ? builder_.add_flexible_body(body.name, shapes_of(number), X_WB, terms_of(body))
                           : builder_.add_body(body.name, body.mass, body.inertia, X_WB);
-    builder_.set_velocity(index, body.v_WBo, body.w_WB_B);
     if (!body.is_flexible()) return;
     for (const Scene::Frame& frame : body.flexible->frames) builder_.add_frame(index, interface_frame(frame));
   }

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <tuple>
 
 #include "models/scene_attachment.h"
 #include "models/scene_tree.h"
@@ -136,8 +137,10 @@ void JointCompiler::add_to_tree(int index, bool forward) {
   const int child = forward ? joint.second.body : joint.first.body;
   const TreeJoint tree = tree_joint(joint);
   const auto weights = std::vector<double>(speed_count(tree), joint.weight);
+  std::vector<double> coordinates;
+  for (const std::optional<double>& u : joint.position) coordinates.push_back(u.value_or(0));
   builder_.add_joint(joint.name, attachment_of(scene_, parent), child, scene_.X_WD * parent.p_DP,
-                     forward ? tree : reverse(tree), {joint.position, joint.speed, weights}, !forward);
+                     forward ? tree : reverse(tree), {coordinates, {}, weights}, !forward);
   if (is_prescribed(joint)) return;
   for (std::size_t i = 0; i < joint.motion.size(); ++i)
     if (joint.motion[i] >= 0) drive(index, i);
@@ -195,6 +198,78 @@ void JointCompiler::add_joints() {
       add_to_tree(j, tree_.roles[j] == JointRole::carries_second);
     add_forces(j);
   }
+}
+
+void JointCompiler::give_speed(int index, std::size_t coordinate, double value) {
+  const Scene::Joint& joint = scene_.joints[index];
+  const JointCoordinateKind& kind = info(joint.kind).coordinates[coordinate];
+  GivenSpeed given;
+  given.name = "joint '" + joint.name + "'";
+  if (info(joint.kind).coordinates.size() > 1) given.name += " (" + std::string(kind.name) + ")";
+  given.where = joint.where.text();
+  given.value = value;
+  given.is_angle = kind.is_angle;
+  if (tree_.roles[index] != JointRole::closes) {
+    given.index = static_cast<int>(coordinate);
+    given.body = carried_body(index);
+  } else {
+    if (!kind.measurable) return;  // of a flexible body, which starts as the rigid one
+    given.of = GivenSpeed::Of::coordinate;
+    given.gauge = kind.gauge;
+    std::tie(given.A, given.B) = markers(index);
+  }
+  builder_.give(given);
+}
+
+/// Angular velocity of the second body against the first, axes of the second.
+void JointCompiler::give_spin(int index) {
+  const Scene::Joint& joint = scene_.joints[index];
+  const bool carries = tree_.roles[index] != JointRole::closes;
+  GivenSpeed given;
+  given.where = joint.where.text();
+  if (carries) {
+    given.body = carried_body(index);
+  } else {
+    given.of = GivenSpeed::Of::turning;
+    given.A = marker(joint.first);
+    given.B = marker(joint.second, second_axes(joint));
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    given.name = "joint '" + joint.name + "' (" + "xyz"[axis] + ")";
+    given.value = (*joint.spin)[axis];
+    given.axis = given.index = axis;
+    builder_.give(given);
+  }
+}
+
+void JointCompiler::give_speeds() {
+  for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
+    const Scene::Body& body = scene_.bodies[b];
+    builder_.give_velocity(static_cast<int>(b), body.v_WBo, body.w_WB_B, body.where.text());
+  }
+  for (std::size_t j = 0; j < scene_.joints.size(); ++j) {
+    const Scene::Joint& joint = scene_.joints[j];
+    for (std::size_t i = 0; i < joint.speed.size(); ++i)
+      if (joint.speed[i]) give_speed(static_cast<int>(j), i, *joint.speed[i]);
+    if (joint.spin) give_spin(static_cast<int>(j));
+  }
+}
+
+bool JointCompiler::guide_positions() {
+  bool any = false;
+  for (std::size_t j = 0; j < scene_.joints.size(); ++j) {
+    const Scene::Joint& joint = scene_.joints[j];
+    if (tree_.roles[j] != JointRole::closes) continue;
+    for (std::size_t i = 0; i < joint.position.size(); ++i) {
+      if (!joint.position[i]) continue;
+      const auto [A, B] = markers(static_cast<int>(j));
+      builder_.add_closure(coordinate_path(joint, i, "position"), A, B,
+                           DrivenClosure("joint '" + joint.name + "'", info(joint.kind).coordinates[i].gauge,
+                                         Motion("joint '" + joint.name + "'", *joint.position[i], {})));
+      any = true;
+    }
+  }
+  return any;
 }
 
 void JointCompiler::add_coupling(const Scene::Closure& closure) {

@@ -19,6 +19,10 @@ class JointCompiler {
 
   void add_joints();
   void add_closures();
+  /// Hands on the speeds and velocities that the scene gives. Call last.
+  void give_speeds();
+  /// Rows that hold the given positions of joints that close loops; returns whether there are any.
+  bool guide_positions();
 
   const SpanningTree& tree() const { return tree_; }
   /// The body that a tree joint carries (index in the scene).
@@ -39,6 +43,8 @@ class JointCompiler {
   void drive(int joint, std::size_t coordinate);
   void add_forces(int joint);
   void add_coupling(const Scene::Closure& closure);
+  void give_speed(int joint, std::size_t coordinate, double value);
+  void give_spin(int joint);
 
   const Scene& scene_;
   SystemBuilder& builder_;

@@ -70,8 +70,7 @@ std::string reason_in_tree(const Scene::Joint& joint, bool in_a_loop) {
   if (joint.cut == false) return "pinned";
   if (!in_a_loop) return "no loop passes through it";
   const int rows = closure_rows(joint);
-  if (!joint.position.empty() || !joint.speed.empty())
-    return fmt::format("has initial values; would cost {} rows", rows);
+  if (joint.starts()) return fmt::format("has initial values; would cost {} rows", rows);
   return fmt::format("would cost {} rows", rows);
 }
 

@@ -83,6 +83,9 @@ void list_closures(const System& system, const AssemblyReport& assembly, Plan& p
   for (const int row : assembly.redundant_rows) plan.redundant_rows.push_back(system.row_name(row));
   plan.rank = system.n_rows - static_cast<int>(assembly.redundant_rows.size());
   plan.displacement = assembly.displacement;
+  for (const ChangedSpeed& speed : assembly.speeds)
+    plan.speeds_changed.push_back(
+        fmt::format("{}: {:.6g} -> {:.6g}", system.speed_name(speed.index), speed.given, speed.assembled));
 }
 
 std::string identified_line(const IdentifiedBody& body) {
@@ -114,7 +117,7 @@ Plan make_plan(const Scene& scene, const CompiledScene& compiled) {
 
   Workspace ws(system);
   State state = compiled.initial;
-  const AssemblyReport assembly = assemble(system, state, ws);
+  const AssemblyReport assembly = assemble(system, state, ws, compiled.transient.given);
   list_closures(system, assembly, plan);
   plan.mobility = system.nv - plan.rank;
 

@@ -27,6 +27,7 @@ struct Plan {
   int closure_rows = 0, rank = 0;           ///< rows in all, and how many are independent
   std::vector<std::string> redundant_rows;  ///< by joint and direction
   int mobility = 0;                         ///< speeds (elastic ones included) minus the rank
+  std::vector<std::string> speeds_changed;  ///< that assembling changes: "B: speed: 0 -> -10"
   double displacement = 0;                  ///< largest change of a coordinate by assembling [m, rad]
   int force_elements = 0;
   std::string form, integrator;

@@ -38,6 +38,15 @@ std::vector<std::string> gap_lines(const AssemblyReport& assembly) {
   return lines;
 }
 
+/// "pinion_bearing: speed: 0 given, -10 at the start" for each speed that follows from others.
+std::vector<std::string> speed_lines(const System& system, const AssemblyReport& assembly) {
+  std::vector<std::string> lines;
+  for (const ChangedSpeed& speed : assembly.speeds)
+    lines.push_back(fmt::format("{}: {:.6g} before, {:.6g} after", system.speed_name(speed.index),
+                                speed.given, speed.assembled));
+  return lines;
+}
+
 std::vector<std::string> passage_lines(const RunResult& result) {
   std::vector<std::string> lines;
   for (const NamedPassage& passage : result.singular_passages)
@@ -57,8 +66,8 @@ std::vector<std::string> warning_lines(const Warnings& warnings) {
   return lines;
 }
 
-void record_facts(const Scene& scene, const RunRequest& request, const RunResult& result,
-                  Recorder& recorder) {
+void record_facts(const Scene& scene, const System& system, const RunRequest& request,
+                  const RunResult& result, Recorder& recorder) {
   recorder.set_meta("title", scene.title);
   recorder.set_meta("scene", scene.text);
   recorder.set_meta("overrides", request.overrides);
@@ -77,6 +86,7 @@ void record_facts(const Scene& scene, const RunRequest& request, const RunResult
   for (const auto& [name, value] : s.statistics) recorder.set_meta("solver_" + name, value);
   recorder.set_meta("method_changes", change_lines(s.method_changes));
   recorder.set_meta("assembly_gaps", gap_lines(s.assembly));
+  recorder.set_meta("assembly_speeds", speed_lines(system, s.assembly));
   recorder.set_meta("singular_passages", passage_lines(result));
   recorder.set_meta("warnings", warning_lines(result.warnings));
   for (const auto& [name, count] : named_counts(result.work))
@@ -106,7 +116,7 @@ void check_start(const Scene& scene, const CompiledScene& compiled) {
   check_prescribed_motions(compiled.system, compiled.transient.duration, options);
   State state = compiled.initial;
   Workspace ws(compiled.system);
-  assemble(compiled.system, state, ws);
+  assemble(compiled.system, state, ws, compiled.transient.given);
 }
 
 /// Every interval and both ends, and some for the two sides of jumps.
@@ -193,7 +203,7 @@ RunResult run_scene(const Scene& scene, const CompiledScene& compiled, const Run
   result.cpu_seconds = static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
   result.warnings = compiled.warnings;
   std::ranges::copy(result.summary.warnings, std::back_inserter(result.warnings));
-  record_facts(scene, request, result, recorder);
+  record_facts(scene, compiled.system, request, result, recorder);
   recorder.close(outcome(result.summary.status), result.summary.message);
   return result;
 }

@@ -103,8 +103,8 @@ struct Scene {
     double mass = 0;  ///< [kg]; of a flexible body: as written, unused (its nodes have their own)
     Matrix3 inertia = Matrix3::Zero();  ///< about the mass centre, body axes [kg m2]; flexible: as for `mass`
     Pose X_DB;                          ///< design pose; Bo is the mass centre [m]
-    Vector3 v_WBo = Vector3::Zero();    ///< initial velocity, inertial axes [m/s]; of free bodies
-    Vector3 w_WB_B = Vector3::Zero();   ///< initial angular velocity, body axes [rad/s]; of free bodies
+    std::optional<Vector3> v_WBo;       ///< initial velocity, inertial axes [m/s]
+    std::optional<Vector3> w_WB_B;      ///< initial angular velocity, body axes [rad/s]
     std::optional<Flexible> flexible;   ///< always there unless rigid; gives a rigid body its nodes
     Source where;
 
@@ -141,14 +141,19 @@ struct Scene {
     Point first, second;      ///< coincident in the design pose
     /// Axes of the joint (joints/joint_kind.h); identity where it has none.
     Matrix3 R_DJ = Matrix3::Identity();
-    double pitch = 0;                     ///< of a screw [m/rad]
-    std::vector<double> position, speed;  ///< initial coordinates and speeds; empty: zero
-    std::vector<int> motion;              ///< of each coordinate, index into `motions` or -1; empty: none
+    double pitch = 0;  ///< of a screw [m/rad]
+    /// Initial coordinates and speeds that are given; empty: none.
+    std::vector<std::optional<double>> position, speed;
+    std::optional<Vector3> spin;  ///< of a spherical one, w_12 in axes of the second body [rad/s]
+    std::vector<int> motion;      ///< of each coordinate, index into `motions` or -1; empty: none
     double weight = 1;  ///< factor on its share of the metric in which the initial pose is assembled
     std::vector<CoordinateSpring> springs;
     std::vector<CoordinateFriction> frictions;
     std::vector<CoordinateLimit> limits;
     Source where;
+
+    /// Whether it has initial values of its own.
+    bool starts() const { return !position.empty() || !speed.empty() || spin.has_value(); }
   };
 
   /// A coordinate of a joint, as couplings and signals refer to it.

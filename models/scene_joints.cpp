@@ -119,15 +119,21 @@ void refuse_keys(const Mapping& keys, std::initializer_list<std::string_view> na
 
 void refuse_without_coordinates(const Mapping& keys, const JointKindInfo& kind) {
   if (!kind.coordinates.empty()) return;
-  refuse_keys(keys, {"position", "speed", "motion", "spring", "friction", "limits"},
-              fmt::format("a {} joint has no coordinate of this kind", kind.name));
+  const std::string reason = fmt::format("a {} joint has no coordinate of this kind", kind.name);
+  refuse_keys(keys, {"position", "motion", "spring", "friction", "limits"}, reason);
+  if (kind.name != info(JointKind::spherical).name) refuse_keys(keys, {"speed"}, reason);
 }
 
+/// `position` and `speed` of coordinates; of a spherical joint `speed` is its angular velocity.
 void read_initial_motion(const Mapping& keys, const JointKindInfo& kind, Scene::Joint& joint) {
-  const auto read = [&](std::string_view key, std::vector<double>& values, bool rate) {
+  const auto read = [&](std::string_view key, std::vector<std::optional<double>>& values, bool rate) {
     const auto value = keys.optional(key);
     if (!value) return;
-    values.assign(kind.coordinates.size(), 0.0);
+    if (joint.kind == JointKind::spherical) {
+      joint.spin = value->vector3(kAngularVelocity);
+      return;
+    }
+    values.assign(kind.coordinates.size(), std::nullopt);
     for_each_coordinate(*value, kind, [&](int i, const Value& v) {
       const bool angle = kind.coordinates[i].is_angle;
       values[i] = v.number(rate ? (angle ? kAngularVelocity : kVelocity) : (angle ? kAngle : kLength));
@@ -231,8 +237,6 @@ Scene::Joint read_joint(const std::string& name, const Value& value,
   joint.second = second.point;
   read_axes(keys, joint);
   refuse_without_coordinates(keys, kind);
-  if (joint.cut == true)
-    refuse_keys(keys, {"position", "speed"}, "a cut joint has no coordinate of its own to start from");
   read_motion(keys, kind, motion_names, joint);
   read_initial_motion(keys, kind, joint);
   read_joint_forces(keys, kind, joint);
@@ -247,36 +251,45 @@ void read_joints(const Value& section, const std::vector<std::string>& motion_na
   }
 }
 
+namespace {
+
+/// The joints pinned to the tree must fit into one, were all bodies rigid: what floats because it is flexible is no fault of
+/// theirs.
+void check_pins(const Scene& scene, const SpanningTree& rigid) {
+  if (rigid.impossible.empty()) return;
+  std::vector<std::string> names;
+  for (const int j : rigid.impossible) names.push_back(scene.joints[static_cast<std::size_t>(j)].name);
+  const Scene::Joint& joint = scene.joints[static_cast<std::size_t>(rigid.impossible.front())];
+  throw InputError(
+      {joint.where.text(),
+       fmt::format("not all joints with 'cut: false' fit into one tree: {}", fmt::join(names, ", ")), "",
+       "leave one joint of each loop to be cut ('cut: true', or no 'cut')"});
+}
+
+/// Of a joint that closes a loop only what can be measured can be given.
+void check_start(const Scene::Joint& joint) {
+  const JointKindInfo& kind = info(joint.kind);
+  for (const auto* values : {&joint.position, &joint.speed})
+    for (std::size_t i = 0; i < values->size(); ++i) {
+      if (!(*values)[i] || kind.coordinates[i].measurable) continue;
+      throw InputError({joint.where.text(),
+                        fmt::format("'{}' of a {} joint that closes a loop cannot be given at the start",
+                                    kind.coordinates[i].name, kind.name),
+                        "", "leave it out, or give another joint of the loop instead"});
+    }
+}
+
+}  // namespace
+
 void check_topology(const Scene& scene) {
-  const SpanningTree tree = scene_tree(scene);
-  if (!tree.impossible.empty()) {
-    std::vector<std::string> names;
-    for (const int j : tree.impossible) names.push_back(scene.joints[static_cast<std::size_t>(j)].name);
-    const Scene::Joint& joint = scene.joints[static_cast<std::size_t>(tree.impossible.front())];
-    throw InputError(
-        {joint.where.text(),
-         fmt::format("not all joints with 'cut: false' fit into one tree: {}", fmt::join(names, ", ")), "",
-         "leave one joint of each loop to be cut ('cut: true', or no 'cut')"});
-  }
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-    const Scene::Body& body = scene.bodies[b];
-    if (tree.carrier[b] < 0 || (body.v_WBo.isZero(0) && body.w_WB_B.isZero(0))) continue;
-    const Scene::Joint& joint = scene.joints[static_cast<std::size_t>(tree.carrier[b])];
-    if (joint.kind == JointKind::free && joint.first.body == Scene::kGround) continue;
-    throw InputError({body.where.text(),
-                      fmt::format("the velocity of the body follows from the joint '{}'", joint.name), "",
-                      "remove 'velocity' and 'angular_velocity'; give the joint a 'speed' if it moves"});
-  }
+  check_pins(scene, rigid_tree(scene));
+  const SpanningTree start = start_tree(scene), tree = scene_tree(scene);
   for (std::size_t j = 0; j < scene.joints.size(); ++j) {
     const Scene::Joint& joint = scene.joints[j];
     if (joint.kind == JointKind::free && tree.roles[j] == JointRole::carries_first)
       throw InputError(
           {joint.where.text(), "a free joint carries its second-named body", "", "exchange the two bodies"});
-    const bool starts = !joint.position.empty() || !joint.speed.empty();
-    if (!starts || tree.roles[j] != JointRole::closes) continue;
-    throw InputError(
-        {joint.where.text(), "the joint closes a loop and has no coordinate of its own to start from", "",
-         "leave out its 'position' and 'speed', or say 'cut: true' at another joint of the loop"});
+    if (start.roles[j] == JointRole::closes) check_start(joint);
   }
 }
 

@@ -12,6 +12,7 @@
 #include "solver/closure_dynamics.h"
 #include "solver/closure_rank.h"
 #include "solver/closures.h"
+#include "solver/initial_speeds.h"
 #include "solver/kinematics.h"
 #include "solver/loads.h"
 
@@ -196,6 +197,27 @@ void approach(const System& system, const VectorX& q0, State& state, Workspace& 
   }
 }
 
+/// Speeds that closures and given speeds allow: the nearest ones, and where that would change given speeds, the nearest among
+/// those that keep them. Needs the kinematics.
+void assemble_speeds(const System& system, const std::vector<GivenSpeed>& given, State& state, Workspace& ws,
+                     AssemblyReport& report) {
+  const VectorX v0 = state.v;
+  bool factored = false;
+  project_velocities(system, 0, factored, state, ws);
+  update_closed_kinematics(system, state, ws);
+  if (!has_speeds(given, state, ws)) {
+    state.v = v0;
+    update_closed_kinematics(system, state, ws);
+    factor_inertia(system, ws);
+    solve_given_speeds(system, given, state, ws, report.warnings);
+    update_closed_kinematics(system, state, ws);
+    project_velocities(system, 0, factored, state, ws);
+  }
+  const double rounding = 1e-9 * (state.v.size() > 0 ? state.v.cwiseAbs().maxCoeff() : 0.0);
+  for (int i = 0; i < system.nv; ++i)
+    if (std::abs(state.v[i] - v0[i]) > rounding) report.speeds.push_back({i, v0[i], state.v[i]});
+}
+
 std::vector<ClosureGap> closure_gaps(const System& system, const Workspace& ws) {
   std::vector<ClosureGap> gaps;
   for (const Closure& closure : system.closures) {
@@ -223,9 +245,9 @@ std::vector<ClosureGap> closure_gaps(const System& system, const Workspace& ws) 
   }
   Eigen::Index worst = 0;
   ws.Phi.cwiseAbs().maxCoeff(&worst);
-  throw InputError({"cut joint '" + system.row_name(static_cast<int>(worst)) + "'",
-                    "no pose near the given one satisfies all closures", "open: " + open,
-                    "correct the positions of the joint's two sides, or the initial joint coordinates"});
+  throw OpenClosures({"cut joint '" + system.row_name(static_cast<int>(worst)) + "'",
+                      "no pose near the given one satisfies all closures", "open: " + open,
+                      "correct the positions of the joint's two sides, or the initial joint coordinates"});
 }
 
 }  // namespace
@@ -241,13 +263,16 @@ bool project(const System& system, double tolerance, State& state, Workspace& ws
   return true;
 }
 
-AssemblyReport assemble(const System& system, State& state, Workspace& ws) {
+AssemblyReport assemble(const System& system, State& state, Workspace& ws,
+                        const std::vector<GivenSpeed>& given) {
   AssemblyReport report;
   normalize_quaternions(system, state.q);
   update_closed_kinematics(system, state, ws);
   remember_angles(system, state, ws);
-  if (system.n_rows == 0) return report;
-
+  if (system.n_rows == 0) {
+    assemble_speeds(system, given, state, ws, report);
+    return report;
+  }
   const VectorX q0 = state.q;
   ws.stiffening = system.assembly_weights;
   keep_rows(all_rows(system), system, ws);
@@ -261,9 +286,8 @@ AssemblyReport assemble(const System& system, State& state, Workspace& ws) {
   keep_rows(independent, system, ws);
   if (report.position_iterations > 1) approach(system, q0, state, ws);
 
-  bool factored = false;
   update_closed_kinematics(system, state, ws);
-  project_velocities(system, 0, factored, state, ws);
+  assemble_speeds(system, given, state, ws, report);
   ws.stiffening.resize(0);
   update_closed_kinematics(system, state, ws);
   remember_angles(system, state, ws);

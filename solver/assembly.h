@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "core/error.h"
+#include "solver/given_speed.h"
 #include "solver/workspace.h"
 
 namespace wishbone {
@@ -14,6 +16,18 @@ struct ClosureGap {
   double angle = 0;   ///< [rad]
 };
 
+/// A speed that assembling changed.
+struct ChangedSpeed {
+  int index = 0;  ///< in v
+  double given = 0, assembled = 0;
+};
+
+/// No pose near the given one closes all loops.
+class OpenClosures : public InputError {
+ public:
+  using InputError::InputError;
+};
+
 /// What assembling found.
 struct AssemblyReport {
   int position_iterations = 0;
@@ -23,6 +37,8 @@ struct AssemblyReport {
   std::vector<ClosureGap> closed;  ///< what is left of them in the assembled pose
   double displacement = 0;         ///< largest change of a coordinate from that pose [m, rad]
   std::vector<int> redundant_rows;
+  std::vector<ChangedSpeed> speeds;  ///< that follow from the closures and from the speeds that are given
+  Warnings warnings;
 };
 
 /// Closure residual to which states are projected during a run [m, rad].
@@ -47,10 +63,13 @@ inline constexpr int kMaxProjections = 20;
 bool project(const System& system, double tolerance, State& state, Workspace& ws, double implicit_step = 0);
 
 /// Makes the initial state consistent: finds the nearest closed pose in the metric of kinetic energy (each joint speed's
-/// share times its factor in System::assembly_weights), drops redundant closure rows, projects speeds. Damped steps and the
+/// share times its factor in System::assembly_weights), drops redundant closure rows, keeps
+/// the given speeds and changes the others least (solver/initial_speeds.h). Damped steps and the
 /// nearest pose keep the branch that the given pose is on.
-/// @throws InputError naming the closures that stay open, with their gaps, when no pose near the given one satisfies all
+/// @throws OpenClosures naming the closures that stay open, with their gaps, when no pose near the given one satisfies all
 ///   of them: out of reach, or contradictory
-AssemblyReport assemble(const System& system, State& state, Workspace& ws);
+/// @throws InputError naming the given speeds that contradict each other or the closures
+AssemblyReport assemble(const System& system, State& state, Workspace& ws,
+                        const std::vector<GivenSpeed>& given = {});
 
 }  // namespace wishbone

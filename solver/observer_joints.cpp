@@ -15,6 +15,10 @@ struct Units {
   const char* coordinate;
   const char* speed;
 };
+
+constexpr const char* kDrivingForce =
+    "force or moment that the motion needs, along its coordinate; positive lets it grow";
+
 Units scalar_units(const TreeBody& body) {
   const auto* prescribed = std::get_if<PrescribedJoint>(&body.joint);
   const bool slides = std::holds_alternative<PrismaticJoint>(body.joint) ||
@@ -59,16 +63,18 @@ void Observer::add_tree_joints(const System& system) {
           put(angular(tree_joint_reaction(s.system, s.ws, static_cast<int>(i))), out);
         });
     if (!prescribed) continue;
-    add(path + "/driving_force", {}, scalar_units(body).coordinate[0] == 'm' ? "N" : "N m", "",
-        "force or moment that the prescribed motion needs, along the axis, on the second-named body",
+    // as of a motion that a row drives
+    add(path + "_drive/force", {3}, "N", kWorld, "of the motion on the first-named body, at the joint",
         [i](const Sample& s, double* out) {
-          const TreeBody& b = s.system.bodies[i];
-          const auto& joint = std::get<PrescribedJoint>(b.joint);
-          const Vector3 axis =
-              (b.first_is_child ? -1.0 : 1.0) * (inboard_axes<double>(s.system, b, s.ws) * joint.axis_F);
-          const Vector6 F = -tree_joint_reaction(s.system, s.ws, static_cast<int>(i));
-          *out = axis.dot(joint.kind == PrescribedJoint::Kind::revolute ? Vector3(angular(F))
-                                                                        : Vector3(linear(F)));
+          put(linear(tree_joint_drive(s.system, s.ws, static_cast<int>(i))), out);
+        });
+    add(path + "_drive/moment", {3}, "N m", kWorld, "of the motion on the first-named body, about the joint",
+        [i](const Sample& s, double* out) {
+          put(angular(tree_joint_drive(s.system, s.ws, static_cast<int>(i))), out);
+        });
+    add(path + "_drive/driving_force", {}, scalar_units(body).coordinate[0] == 'm' ? "N" : "N m", "",
+        kDrivingForce, [i](const Sample& s, double* out) {
+          *out = tree_joint_driving_force(s.system, s.ws, static_cast<int>(i));
         });
   }
 }
@@ -124,8 +130,7 @@ void Observer::add_closures(const System& system) {
     // one row, whose multiplier is the force along the coordinate
     const int row = system.closures[c].row_start;
     add(path + "/driving_force", {}, row_is_angle(system.closures[c].joint, 0) ? "N m" : "N", "",
-        "force or moment that the motion needs, along its coordinate; positive lets it grow",
-        [row](const Sample& s, double* out) { *out = s.ws.lambda[row]; });
+        kDrivingForce, [row](const Sample& s, double* out) { *out = s.ws.lambda[row]; });
   }
 }
 

@@ -15,10 +15,18 @@ namespace wishbone {
 /// result does not depend on units). It does not depend on which joints of a loop are cut either.
 void calc_reactions(const System& system, Workspace& ws);
 
-/// Force and moment of body i's inboard joint on its first-named body, at the outboard joint point Mo, world axes.
+/// A reaction is what a joint holds: forces that act along its coordinates (motions, loads, springs, friction, limits) are none
+/// of it. It is given on the first-named body, about the joint's point on that body, whether the joint carries a body or closes
+/// a loop. Of body i's inboard joint, (moment, force), world axes:
 Vector6 tree_joint_reaction(const System& system, const Evaluation<double>& ev, int i);
 
-/// Position of that point, world axes [m].
-Vector3 tree_joint_point(const Evaluation<double>& ev, int i);
+/// The joint's point on its first-named body, world axes [m].
+Vector3 tree_joint_point(const System& system, const Evaluation<double>& ev, int i);
+
+/// What the motion of a prescribed joint puts on the first-named body, likewise; zero of other joints.
+Vector6 tree_joint_drive(const System& system, const Evaluation<double>& ev, int i);
+
+/// The force or moment of that along the coordinate, positive lets it grow [N, N m].
+double tree_joint_driving_force(const System& system, const Evaluation<double>& ev, int i);
 
 }  // namespace wishbone

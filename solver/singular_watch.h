@@ -13,7 +13,9 @@ struct SingularPassage {
 };
 
 /// Finds singular positions that steps go over without touching: near one the least sine of the closure rows falls to zero
-/// linearly in time and rises again with the same slope, where it would turn smoothly if it only came close.
+/// linearly in time and rises again with the same slope, where it would turn smoothly if it only came close. Rows of a
+/// structure, which deforms but does not move, may stay close to dependent all the time: their sine wanders up and down in no
+/// line, and small beside nothing that it was before.
 class SingularWatch {
  public:
   /// After every accepted step.
@@ -26,7 +28,10 @@ class SingularWatch {
   struct Sample {
     double t = 0, sine = 1;
   };
-  Sample before_, last_;
+  bool falls_along_a_line() const;
+
+  Sample earlier_, before_, last_;
+  double highest_ = 0;  // sine since the last passage
   std::vector<SingularPassage> passages_;
 };
 

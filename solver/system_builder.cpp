@@ -49,6 +49,43 @@ void SystemBuilder::set_velocity(int body, const Vector3& v_WB, const Vector3& w
   bodies_[body].w_WB_B = w_WB_B;
 }
 
+void SystemBuilder::give(GivenSpeed speed) {
+  given_.push_back(std::move(speed));
+}
+
+/// Whether the speeds of the body are its velocities in the inertial frame.
+bool SystemBuilder::moves_freely(int body) const {
+  const int j = bodies_[body].joint;
+  return j < 0 || (std::holds_alternative<FreeJoint>(joints_[j].joint) && joints_[j].parent.body == kGround);
+}
+
+void SystemBuilder::give_velocity(int body, const std::optional<Vector3>& v_WB,
+                                  const std::optional<Vector3>& w_WB_B, const std::string& where) {
+  if (!v_WB && !w_WB_B) return;
+  GivenSpeed given;
+  given.where = where;
+  given.body = body;
+  if (!moves_freely(body)) {
+    given.A = add_marker({kGround});
+    given.B = add_marker({body});
+  }
+  const auto add = [&](const Vector3& value, bool turns) {
+    for (int axis = 0; axis < 3; ++axis) {
+      given.name = "body '" + bodies_[body].name + "' (" + (turns ? "angular_velocity " : "velocity ") +
+                   "xyz"[axis] + ")";
+      given.value = value[axis];
+      given.is_angle = turns;
+      given.axis = axis;
+      given.index = axis + (turns ? 0 : 3);
+      given.of = turns ? GivenSpeed::Of::turning : GivenSpeed::Of::travel;
+      if (moves_freely(body)) given.of = GivenSpeed::Of::speed;
+      give(given);
+    }
+  };
+  if (v_WB) add(*v_WB, false);
+  if (w_WB_B) add(*w_WB_B, true);
+}
+
 int SystemBuilder::add_frame(int body, InterfaceFrame frame) {
   BodyEntry& entry = bodies_[body];
   entry.frame_origins.push_back(frame_shapes(frame, entry.shapes).origin);
@@ -273,6 +310,11 @@ std::pair<System, State> SystemBuilder::build() && {
   find_paths(system);
 
   system.measured = std::move(measured_);
+  for (GivenSpeed& given : given_) {
+    if (given.of != GivenSpeed::Of::speed) continue;
+    given.index += system.bodies[order_of_[given.body]].v_start;
+    state.v[given.index] = given.value;
+  }
   system.forces = std::move(forces_);
   system.signals = std::move(signals_);
   std::apply([&](const auto&... lists) { ((system.n_forces += static_cast<int>(lists.size())), ...); },

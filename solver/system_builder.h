@@ -1,12 +1,13 @@
 #pragma once
 
-#include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "bodies/interface_frame.h"
 #include "bodies/mode_set.h"
+#include "solver/given_speed.h"
 #include "solver/system.h"
 
 namespace wishbone {
@@ -42,6 +43,13 @@ class SystemBuilder {
 
   /// Initial velocity of a floating body: v_WBo inertial components [m/s], w_WB body components [rad/s].
   void set_velocity(int body, const Vector3& v_WB, const Vector3& w_WB_B);
+
+  /// A speed that assembling keeps, unlike those of `set_velocity` and InitialMotion, which it changes where closures ask for
+  /// it. Call when its body has its joint.
+  void give(GivenSpeed speed);
+  /// Velocities of a body, as in `set_velocity`, that assembling keeps.
+  void give_velocity(int body, const std::optional<Vector3>& v_WB, const std::optional<Vector3>& w_WB_B,
+                     const std::string& where);
 
   /// Initial values of a joint's coordinates and speeds (in the order of its v), and the factors on its speeds' shares in the
   /// metric in which the initial pose is assembled; what is left empty is zero, or one. Joints with quaternions start in the
@@ -94,6 +102,9 @@ class SystemBuilder {
   /// @throws InputError naming the body when a body has two tree joints, or the joints form a cycle
   std::pair<System, State> build() &&;
 
+  /// What was given, for `assemble`; after build().
+  const std::vector<GivenSpeed>& given() const { return given_; }
+
   /// Index in System::bodies of a body added here, after build().
   int built_index(int body) const { return order_of_[body]; }
 
@@ -137,6 +148,7 @@ class SystemBuilder {
   std::vector<int> topological_order() const;
   void add_tree_body(int entry, System& system, State& state);
   void find_paths(System& system) const;
+  bool moves_freely(int body) const;
 
   std::vector<BodyEntry> bodies_;
   std::vector<JointEntry> joints_;
@@ -145,6 +157,7 @@ class SystemBuilder {
   ForceElements forces_;
   std::vector<MotionSignal> signals_;
   std::vector<MeasuredCoordinate> measured_;
+  std::vector<GivenSpeed> given_;
   std::vector<int> order_of_;    // entry -> index in System::bodies
   std::vector<double> weights_;  // of the speeds, in the order of System
 };

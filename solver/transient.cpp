@@ -1,6 +1,7 @@
 #include "solver/transient.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +13,7 @@
 #include "solver/events.h"
 #include "solver/forward_dynamics.h"
 #include "solver/kinematics.h"
-#include "solver/largest_force.h"
+#include "solver/failure_cause.h"
 #include "solver/loads.h"
 #include "solver/run_check.h"
 
@@ -55,8 +56,9 @@ class Run {
 
   void start(TransientSummary& summary) {
     summary.integrator = resolve(options_.integrator, system_);
+    summary.assembly = assemble(system_, state_, ws_, options_.given);
     summary.warnings = check_prescribed_motions(system_, options_.duration, summary.integrator);
-    summary.assembly = assemble(system_, state_, ws_);
+    std::ranges::copy(summary.assembly.warnings, std::back_inserter(summary.warnings));
     update_positions<double>(system_, state_.t, state_.q, ws_);
     update_markers<double>(system_, ws_);
     initialize_segments(system_, ws_);
@@ -77,6 +79,7 @@ class Run {
         const Integrator::Step step = integrator_->step(stop);
         t = step.t;
         summary.t_end = t;
+        t_reached_ = t;
         ++steps_;
         watch_singular_positions(t);
         check_->note_step(state_, ws_);
@@ -95,20 +98,22 @@ class Run {
     summary.message = "complete";
   }
 
+  NumericsError explained(const NumericsError& error) const {
+    return wishbone::explained(error, system_, t_reached_, state_.x, ws_);
+  }
+
   void report(TransientSummary& summary) const {
     summary.singular_passages = watch_.passages();
+    // that a failed run stands at a singular position does not mean that it has passed
+    if (summary.status == TransientSummary::Status::failed)
+      std::erase_if(summary.singular_passages, [&](const SingularPassage& p) {
+        return p.t > summary.t_end - 1e-6 * std::max(1.0, summary.t_end);
+      });
     summary.statistics = past_statistics_;
     if (integrator_) add(integrator_->statistics(), summary.statistics);
     if (better_) summary.warnings.push_back(slow_method(*better_));
     if (check_) std::ranges::move(check_->warnings(), std::back_inserter(summary.warnings));
     deflections_.report(summary.warnings);
-  }
-
-  /// The force that exerts most is where to look first.
-  Diagnostic with_largest_force(const HopelessRun& error) const {
-    Diagnostic d = error.diagnostic();
-    d.what += largest_force_text(system_, state_.t, state_.x, ws_);
-    return d;
   }
 
  private:
@@ -260,6 +265,7 @@ class Run {
   bool counts_turns_;
   long next_output_ = 0;
   long steps_ = 0;
+  double t_reached_ = 0;  // end of the last step [s]
 };
 
 }  // namespace
@@ -275,12 +281,9 @@ TransientSummary run_transient(const System& system, State state, const Transien
   } catch (const Interrupted&) {
     summary.status = TransientSummary::Status::interrupted;
     summary.message = fmt::format("interrupted at t = {:.9g} s", summary.t_end);
-  } catch (const HopelessRun& error) {
-    summary.status = TransientSummary::Status::failed;
-    summary.message = run.with_largest_force(error).text();
   } catch (const NumericsError& error) {
     summary.status = TransientSummary::Status::failed;
-    summary.message = error.what();
+    summary.message = run.explained(error).what();
   }
   run.report(summary);
   return summary;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "core/error.h"
 #include "solver/assembly.h"
@@ -11,6 +12,7 @@
 namespace wishbone {
 
 struct TransientOptions {
+  std::vector<GivenSpeed> given;  ///< that the run starts with
   IntegratorOptions integrator;
   double duration = 1;     ///< [s]
   double interval = 0.01;  ///< between outputs [s]

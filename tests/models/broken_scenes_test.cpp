@@ -298,9 +298,6 @@ constexpr Broken kBrokenScenes[] = {
     Broken{"UnknownProportionOfDamping", "damping: 1 %", "damping: {mass: 1, stifness: 1 ms}",
            "scene.yaml:20:26: bodies.beam.flexible.damping: error: unknown key 'stifness'\n"
            "  did you mean 'stiffness'?"},
-    Broken{"VelocityOfCarriedBody", "position: [2, 0, 0]", "position: [2, 0, 0], velocity: [1, 0, 0]",
-           "scene.yaml:10:3: bodies.wheel: error: the velocity of the body follows from the joint 'slide'\n"
-           "  remove 'velocity' and 'angular_velocity'; give the joint a 'speed' if it moves"},
     Broken{"UnknownJointType", "type: revolute", "type: hinge",
            "scene.yaml:22:17: joints.pivot.type: error: not one of the joint types (got 'hinge')\n"
            "  the joint types are: fixed, revolute, prismatic, cylindrical, screw, universal, "
@@ -326,10 +323,6 @@ constexpr Broken kBrokenScenes[] = {
     Broken{"AxisOfSpherical", "type: spherical", "type: spherical, axis: [0, 0, 1]",
            "scene.yaml:24:27: joints.hold.axis: error: a spherical joint has no such axis\n"
            "  remove 'axis'"},
-    Broken{"SpeedOfCutJoint", "cut: false", "cut: true",
-           "scene.yaml:23:89: joints.slide.speed: error: a cut joint has no coordinate of its own to start "
-           "from (got '1 m/s')\n"
-           "  remove 'speed'"},
     Broken{
         "SteeringByCutJoint", "motion: turn", "motion: turn, cut: true",
         "scene.yaml:47:43: vehicle.steering.front: error: a steering angle is the coordinate of a revolute "
@@ -351,15 +344,6 @@ constexpr Broken kBrokenScenes[] = {
            "  slide: {type: prismatic, bodies: [arm, wheel]",
            "scene.yaml:25:3: joints.slide: error: not all joints with 'cut: false' fit into one tree: slide\n"
            "  leave one joint of each loop to be cut ('cut: true', or no 'cut')"},
-    Broken{
-        "StartOfALoopJoint", "  slide: {type: prismatic, bodies: [arm, wheel]",
-        "  weld: {type: fixed, bodies: [ground, wheel], at: [0, 0, 0]}\n"
-        "  brace: {type: fixed, bodies: [arm, wheel], at: [0, 0, 0]}\n"
-        "  lever: {type: revolute, bodies: [ground, wheel], at: [0, 0, 0], axis: [0, 0, 1], speed: 1}\n"
-        "  slide: {type: prismatic, bodies: [arm, wheel]",
-        "scene.yaml:25:3: joints.lever: error: the joint closes a loop and has no coordinate of its own to "
-        "start from\n"
-        "  leave out its 'position' and 'speed', or say 'cut: true' at another joint of the loop"},
     Broken{
         "NodeOutOfRange", "{body: beam, node: 1}", "{body: beam, node: 13}",
         "scene.yaml:24:63: joints.hold.bodies[2].node: error: the body 'beam' has no such node (got '13')\n"
@@ -594,21 +578,6 @@ TEST(SceneWithoutBodies, IsRefused) {
   const auto file = files.write("scene.yaml", "wishbone: 1\nbodies: {}\n");
   EXPECT_EQ(files.relative(message_of<InputError>([&] { load_scene(file); })),
             "scene.yaml:2:1: bodies: error: there are no bodies\n  describe at least one");
-}
-
-// A free joint between two bodies has speeds relative to the first; an inertial velocity of the second would be another thing.
-TEST(BrokenScene, VelocityOfABodyFreeOnAnotherIsRefused) {
-  const TextFiles files;
-  const auto file = files.write("scene.yaml", R"(wishbone: 1
-bodies:
-  ship: {mass: 1, inertia: [1, 1, 1], position: [0, 0, 0], velocity: [10, 0, 0]}
-  boat: {mass: 1, inertia: [1, 1, 1], position: [0, 1, 0], velocity: [10, 0, 0]}
-joints:
-  tow: {type: free, bodies: [ship, boat]}
-)");
-  EXPECT_EQ(files.relative(message_of<InputError>([&] { load_scene(file); })),
-            "scene.yaml:4:3: bodies.boat: error: the velocity of the body follows from the joint 'tow'\n"
-            "  remove 'velocity' and 'angular_velocity'; give the joint a 'speed' if it moves");
 }
 
 // A joint whose frames do not share their centre has no place of its own.

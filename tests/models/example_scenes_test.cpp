@@ -58,8 +58,8 @@ TEST(ExampleScenes, PendulumIsAUniformRodHungByItsEnd) {
   const Scene::Body& rod = scene.bodies[0];
   const Vector3 p_PinBo = rod.X_DB.p - scene.joints[0].second.p_DP;
   const double length = 2 * p_PinBo.norm();
-  EXPECT_NEAR(rod.inertia(1, 1), rod.mass * length * length / 12, 1e-12);    // m L^2 / 12 about the middle
-  EXPECT_NEAR(scene.joints[0].position.front(), 1.0471975511965976, 1e-12);  // pi/3
+  EXPECT_NEAR(rod.inertia(1, 1), rod.mass * length * length / 12, 1e-12);  // m L^2 / 12 about the middle
+  EXPECT_NEAR(scene.joints[0].position.front().value(), 1.0471975511965976, 1e-12);  // pi/3
 }
 
 }  // namespace

@@ -33,6 +33,22 @@ TEST(SingularWatch, IsNotDeceivedByAPositionThatOnlyComesClose) {
   EXPECT_TRUE(watch(sine, 30).passages().empty());
 }
 
+// The rows of a clamped frame stay close to dependent while it vibrates, about the sine that counts as touching, or in
+// vibrations that steps hardly resolve.
+TEST(SingularWatch, IsNotDeceivedByRowsThatAreAlwaysCloseToDependent) {
+  EXPECT_TRUE(watch([](double t) { return 1e-4 * (1 + 0.5 * std::sin(70 * t)); }, 300).passages().empty());
+  EXPECT_TRUE(watch([](double t) { return 1e-4 * (1.1 + std::sin(1000 * t)); }, 300).passages().empty());
+  EXPECT_TRUE(watch([](double t) { return 3e-3 * (1.05 + std::sin(270 * t)); }, 300).passages().empty());
+}
+
+TEST(SingularWatch, FindsASecondPassageAfterOneThatAStepLandedOn) {
+  const auto sine = [](double t) { return std::abs(std::sin(10 * (t - 0.1))); };  // at 0.1 and 0.4142
+  const auto passages = watch(sine, 60).passages();
+  ASSERT_EQ(passages.size(), 2U);
+  EXPECT_NEAR(passages[0].t, 0.1, 1e-9);
+  EXPECT_NEAR(passages[1].t, 0.1 + 0.314159, 1e-3);
+}
+
 TEST(SingularWatch, ExpectsTheZeroAlongTheLineThroughTwoSteps) {
   const auto sine = [](double t) { return std::abs(5 * (t - 0.1234)); };
   EXPECT_NEAR(watch(sine, 10).expected(), 0.1234, 1e-12);

@@ -176,7 +176,7 @@ RC_GTEST_PROP(AnyReaction, DoesNoWorkOnVelocitiesThatTheJointsAdmit, ()) {
     size = std::max(size, (body.F_joint.norm() + body.F_applied.norm()) * other.bodies[i].V.norm());
   }
   for (int i = 0; i < static_cast<int>(ws.bodies.size()); ++i) {
-    const Vector3 p = tree_joint_point(ws, i);
+    const Vector3 p = tree_joint_point(m.system, ws, i);
     const int parent = m.system.bodies[i].parent;
     const Vector6 F = tree_joint_reaction(m.system, ws, i);
     double work = power(F, p, other.bodies[i].V, other.bodies[i].X_WB.p);
