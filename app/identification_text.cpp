@@ -79,6 +79,7 @@ nlohmann::ordered_json json_of(const Identification& id) {
                              {"error_estimate", json_list(j.error_estimate)},
                              {"frequency_std_hz", json_list(j.frequency_std_hz)},
                              {"input_frequency_hz", json_list(j.input_hz)},
+                             {"shape_scatter", json_number(j.shape_scatter)},
                              {"lost_modes", j.lost_modes},
                              {"input_orthogonality_error", json_number(j.input_orthogonality_error)},
                              {"orthogonality_error", json_number(j.orthogonality_error)},

@@ -7,10 +7,12 @@
 
 #include "core/error.h"
 #include "identification/held_freedoms.h"
+#include "identification/measurement_noise.h"
 #include "identification/methods/expansion.h"
 #include "identification/methods/model_modes.h"
 #include "identification/methods/rigid_modes.h"
 #include "identification/methods/support_matrices.h"
+#include "identification/unheld_modes.h"
 
 namespace wishbone {
 namespace {
@@ -122,7 +124,8 @@ void cover(const IdentificationTask& task, PreparedStructure& out) {
   out.data.provenance.push_back(out.notes.back());
 }
 
-void find_masses(const RigidBodyData& body, PreparedStructure& out) {
+/// Returns the number of masses that the orthogonality of the modes decided.
+int find_masses(const RigidBodyData& body, PreparedStructure& out) {
   ModalData& data = out.data;
   const MassDistribution found = distribute_mass(body, data.node_position, data.shapes,
                                                  support_matrices(data.support, data.freedoms).M_s);
@@ -139,6 +142,8 @@ void find_masses(const RigidBodyData& body, PreparedStructure& out) {
   if (found.residual > 1e-2)
     out.warnings.push_back(fmt::format(
         "no nodal masses fit the mass data and the modes: relative residual {:.1e}", found.residual));
+  constexpr int kOfTheBody = 10;  // mass, centre, inertia
+  return std::max(0, found.rank - kOfTheBody);
 }
 
 /// Lumped masses over the freedoms; every node with mass must be seen.
@@ -169,8 +174,9 @@ SparseMatrix lumped(const ModalData& data) {
   return diagonal_matrix(diagonal);
 }
 
-void set_up_mass(const IdentificationTask& task, PreparedStructure& out) {
-  if (task.rigid_body) find_masses(*task.rigid_body, out);
+/// Returns the number of masses that were fitted to the modes.
+int set_up_mass(const IdentificationTask& task, PreparedStructure& out) {
+  const int fitted = task.rigid_body ? find_masses(*task.rigid_body, out) : 0;
   if (out.M.size() == 0 || task.rigid_body) out.M = task.mass ? *task.mass : lumped(out.data);
   const Eigen::Index n = out.data.freedom_count();
   if (out.M.rows() != n || out.M.cols() != n)
@@ -178,6 +184,7 @@ void set_up_mass(const IdentificationTask& task, PreparedStructure& out) {
                       "the mass matrix must have a row and a column for every freedom of the modes",
                       fmt::format("{} x {} for {} freedoms", out.M.rows(), out.M.cols(), n),
                       "give both for the same freedoms in the same order, or name the model in 'expansion'"});
+  return fitted;
 }
 
 void warn_of_directions(const ModalData& data, std::vector<std::string>& warnings) {
@@ -197,11 +204,13 @@ PreparedStructure prepare(const IdentificationTask& task) {
   if (out.data.mode_count() == 0)
     throw InputError({"identification", "there are no modes to start from", "0 modes", "choose some"});
   cover(task, out);
-  set_up_mass(task, out);
+  const int fitted = set_up_mass(task, out);
   warn_of_directions(out.data, out.warnings);
   out.support = support_matrices(out.data.support, out.data.freedoms);
   out.rigid = rigid_body_basis(
       rigid_body_shapes(out.data.freedoms, out.data.node_ids, out.data.node_position), out.M);
+  leave_out_unheld_modes(out);
+  out.noise = noise_of(task, out, fitted);
   return out;
 }
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 
@@ -43,11 +42,10 @@ double ratio_to_kept_stiffness(const SparseMatrix& K_s, const SparseMatrix& M, c
 
 /// The measured modes and, ahead of them, the rigid motions that springs leave free: modes at zero that no test lists.
 Modes with_unheld_motions(const PreparedStructure& s, const Modes& measured, const SparseMatrix& M_t) {
-  Eigen::FullPivLU<MatrixX> springs(s.support.K_s * s.rigid);
-  springs.setThreshold(1e-9);
   const Modes unit = mass_normalised(measured, M_t);
-  if (springs.dimensionOfKernel() == 0) return unit;
-  return with_rigid_body_modes(rigid_body_basis(s.rigid * springs.kernel(), M_t), unit);
+  const MatrixX unheld = unheld_motions(s.support, s.rigid);
+  if (unheld.cols() == 0) return unit;
+  return with_rigid_body_modes(rigid_body_basis(unheld, M_t), unit);
 }
 
 /// Free-free elastic modes by the source's steps in physical space, then cleaned up.
@@ -82,7 +80,7 @@ ReleasedModes free_modes(const IdentificationTask& task, const PreparedStructure
     given.residual = no_bound(measured.count());
     return given;
   }
-  ReleasedModes released = release(measured, s.M, s.support, s.rigid, least_elastic_share(task.noise));
+  ReleasedModes released = release(measured, s.M, s.support, s.rigid, least_elastic_share(s.noise));
   if (task.space == Space::kPhysical) release_in_physical_space(s, measured, released);
   return released;
 }

@@ -9,6 +9,7 @@
 #include "core/document.h"
 #include "identification/formats/csv_table.h"
 #include "identification/formats/modal_file.h"
+#include "identification/free_model.h"
 #include "identification/held_freedoms.h"
 #include "identification/methods/model_modes.h"
 #include "identification/methods/rigid_modes.h"
@@ -33,6 +34,17 @@ void check_holds(const AnalyticalModel& model, const Support& support) {
                       "hold all of them, or name no support"});
 }
 
+/// What rounding gives the rigid-body modes must be no frequency among the elastic ones.
+void check_rigid_modes(const VectorX& lambda, int rigid) {
+  constexpr double kGap = 1e-4;  // a hundredth of the frequency
+  const double largest = lambda.head(rigid).cwiseAbs().maxCoeff();
+  if (lambda.size() > rigid && !(largest <= kGap * lambda[rigid]))
+    throw InputError(
+        {"", "the six rigid-body modes of the model are not told from its elastic ones",
+         fmt::format("eigenvalues up to {:.3g}, then {:.3g} rad2/s2", largest, lambda[rigid]),
+         "write the stiffness with more digits; look for soft springs to the ground, loose parts or hinges"});
+}
+
 void check_stiffness(const Modes& modes) {
   if (!(modes.lambda[0] > 0))
     throw InputError({"", "the model has a mode without stiffness",
@@ -54,6 +66,7 @@ ModalData model_test(const AnalyticalModel& model, const Support& support, std::
   std::optional<Eigen::Index> wanted;
   if (count) wanted = *count + rigid;
   Modes modes = model_modes(model.K, model.M, support_matrices(support, data.freedoms), wanted);
+  if (rigid > 0) check_rigid_modes(modes.lambda, rigid);
   modes = {modes.lambda.tail(modes.count() - rigid), modes.shapes.rightCols(modes.count() - rigid)};
   check_stiffness(modes);
   data.omega = modes.lambda.cwiseSqrt();
@@ -98,7 +111,7 @@ class Reader {
   }
 
   LoadedIdentification read() && {
-    if (const auto model = keys_.optional("model")) task_.model = read_model(*model, files_);
+    if (const auto model = keys_.optional("model")) task_.model = read_free_model(*model);
     support_ = keys_.optional("support");
     task_.measured = read_modes(keys_.required("measured"), support_);
     read_choices();
@@ -116,6 +129,15 @@ class Reader {
   }
 
  private:
+  AnalyticalModel read_free_model(const Value& value) {
+    AnalyticalModel model = read_model(value, files_);
+    located(value.where(), [&] {
+      check_is_free(model);
+      return 0;
+    });
+    return model;
+  }
+
   /// {file: NAME, modes: CHOICE} or {from: model, modes: CHOICE}; a support that is given replaces that of the file.
   ModalData read_modes(const Value& value, const std::optional<Value>& support) {
     const Mapping keys(value, {"file", "from", "modes"});

@@ -58,24 +58,12 @@ std::string mode_list(const std::vector<int>& modes) {
 }
 
 void warn_of_data(const PreparedStructure& s, const Modes& unit, Judgement& judgement) {
-  constexpr double kLargeError = 0.1, kLargeImbalance = 0.05, kMostlyRigid = 0.5;
+  constexpr double kLargeError = 0.1, kLargeImbalance = 0.05;
   if (judgement.input_orthogonality_error > kLargeError)
     judgement.warnings.push_back(fmt::format(
         "the measured modes are not orthogonal in the given masses: largest products {}; check the "
         "masses, the numbering and the directions",
         largest_mass_products(s.data.shapes, s.M + s.support.M_s)));
-  if (s.data.support.empty()) {
-    std::vector<int> rigid;
-    const VectorX share = rigid_share(s.rigid, s.data.shapes, s.M);
-    for (Eigen::Index j = 0; j < share.size(); ++j)
-      if (share[j] > kMostlyRigid) rigid.push_back(static_cast<int>(j) + 1);
-    if (!rigid.empty())
-      judgement.warnings.push_back(
-          fmt::format("mode{} {} {} mostly rigid-body motion, as on a support, and no support is named: the "
-                      "frequencies of "
-                      "the other modes are those on it",
-                      rigid.size() > 1 ? "s" : "", mode_list(rigid), rigid.size() > 1 ? "are" : "is"));
-  }
   const bool on_springs_alone = s.support.D.rows() == 0 && s.support.K_s.nonZeros() > 0;
   if (!on_springs_alone) return;
   if (const double error = imbalance(s, unit); error > kLargeImbalance)
@@ -116,13 +104,13 @@ void warn_of_result(const Solution& solution, Judgement& judgement) {
 
 void judge_noise(const IdentificationTask& task, const PreparedStructure& s, const Modes& identified,
                  Judgement& judgement) {
-  if (!task.noise) return;
+  if (!s.noise) return;
   judgement.frequency_std_hz = frequency_deviation(
-      s.measured(), *task.noise, [&](const Modes& measured) { return solve(task, s, measured).modes; });
+      s.measured(), *s.noise, [&](const Modes& measured) { return solve(task, s, measured).modes; });
   judgement.notes.push_back(fmt::format(
       "standard deviations from {} repetitions with {:.3g} % scatter of frequencies and {:.3g} % of shapes "
       "(seed {})",
-      task.noise->samples, 100 * task.noise->frequency, 100 * task.noise->shape, task.noise->seed));
+      s.noise->samples, 100 * s.noise->frequency, 100 * s.noise->shape, s.noise->seed));
   std::vector<int> lost;
   for (Eigen::Index j = 0; j < identified.count(); ++j)
     if (!std::isfinite(judgement.frequency_std_hz[j])) lost.push_back(static_cast<int>(j) + 1);
@@ -138,6 +126,7 @@ Judgement judge(const IdentificationTask& task, const PreparedStructure& s, cons
   Judgement judgement;
   judgement.notes = s.notes;
   judgement.warnings = s.warnings;
+  judgement.shape_scatter = s.shape_scatter;
   judgement.input_hz = hertz(s.data.omega);
   judgement.frequency_hz = hertz(modes.omega);
   judgement.residual = solution.residual;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -26,9 +27,11 @@ struct Judgement {
   /// m, bound on |lambda - lambda_true| / lambda by what the kept set leaves; NaN: no bound.
   VectorX residual;
   VectorX error_estimate;    ///< m, estimated relative error of the frequency by what was left out; NaN: none
-  VectorX frequency_std_hz;  ///< m, standard deviation under the given measurement noise; empty: none given
-  MatrixX auto_mac;          ///< m x m, identified modes among each other
-  MatrixX input_mac;         ///< m x (input modes), which measured mode became which
+  VectorX frequency_std_hz;  ///< m, standard deviation under the measurement noise; empty: none
+  double shape_scatter =
+      std::numeric_limits<double>::quiet_NaN();  ///< that the modes show; NaN: not known [-]
+  MatrixX auto_mac;                              ///< m x m, identified modes among each other
+  MatrixX input_mac;                             ///< m x (input modes), which measured mode became which
   double input_orthogonality_error = 0;  ///< largest off-diagonal of normalised Psi^T M_t Psi of the input
   double orthogonality_error = 0;        ///< largest element of |Psi^T M Psi - 1| of the result
   double rigid_body_error = 0;           ///< largest element of |Psi_0^T M Psi| of the result

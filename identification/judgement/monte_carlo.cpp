@@ -5,7 +5,7 @@
 #include <random>
 
 #include "core/error.h"
-#include "identification/judgement/mac.h"
+#include "identification/judgement/matching.h"
 
 namespace wishbone {
 namespace {
@@ -42,7 +42,7 @@ struct Scatter {
 VectorX frequency_deviation(const Modes& measured, const MeasurementNoise& noise,
                             const std::function<Modes(const Modes&)>& identify) {
   const Modes undisturbed = identify(measured);
-  const VectorX f = undisturbed.frequency_hz();
+  const VectorX f = undisturbed.frequency_hz(), omega = undisturbed.lambda.cwiseMax(0).cwiseSqrt();
   std::vector<Scatter> scatter(static_cast<std::size_t>(f.size()));
   std::mt19937_64 random(noise.seed);
   for (int sample = 0; sample < noise.samples; ++sample) {
@@ -53,9 +53,10 @@ VectorX frequency_deviation(const Modes& measured, const MeasurementNoise& noise
       continue;  // disturbed beyond use: counted as lost
     }
     const VectorX f_found = found.frequency_hz();
-    const std::vector<int> partner = partners(modal_assurance(undisturbed.shapes, found.shapes));
-    for (std::size_t j = 0; j < partner.size(); ++j)
-      if (partner[j] >= 0) scatter[j].add(f_found[partner[j]] - f[static_cast<Eigen::Index>(j)]);
+    const std::vector<int> partner = match_modes(found.shapes, undisturbed.shapes, omega).partner;
+    for (std::size_t i = 0; i < partner.size(); ++i)
+      if (const int j = partner[i]; j >= 0)
+        scatter[static_cast<std::size_t>(j)].add(f_found[static_cast<Eigen::Index>(i)] - f[j]);
   }
   VectorX deviation(f.size());
   for (std::size_t j = 0; j < scatter.size(); ++j)

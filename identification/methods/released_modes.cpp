@@ -15,6 +15,16 @@
 namespace wishbone {
 namespace {
 
+constexpr double kUnheld = 1e-9;  // of the motion that is held best
+
+/// What joints and springs do to the rigid motions, row by row; only its null space means something.
+MatrixX resistance(const SupportMatrices& support, const MatrixX& rigid) {
+  MatrixX held(support.D.rows() + support.K_s.rows(), rigid.cols());
+  const MatrixX joints = support.D * rigid, springs = support.K_s * rigid;
+  held << joints, springs / std::max(springs.norm(), std::numeric_limits<double>::min());
+  return held;
+}
+
 /// Joints that leave a rigid motion free hide it from the measurement, unless springs resist it.
 void check_holds(const SupportMatrices& support, Eigen::Index held, Eigen::Index rigid) {
   if (support.D.rows() > 0 && held < rigid)
@@ -88,12 +98,17 @@ void leave_out_unknown(double highest_lambda, ReleasedModes& released) {
 }  // namespace
 
 int held_motions(const SupportMatrices& support, const MatrixX& rigid) {
-  MatrixX held(support.D.rows() + support.K_s.rows(), rigid.cols());
-  const MatrixX joints = support.D * rigid, springs = support.K_s * rigid;
-  held << joints, springs / std::max(springs.norm(), std::numeric_limits<double>::min());
   Eigen::ColPivHouseholderQR<MatrixX> qr;
-  qr.setThreshold(1e-9);
-  return static_cast<int>(qr.compute(held).rank());
+  qr.setThreshold(kUnheld);
+  return static_cast<int>(qr.compute(resistance(support, rigid)).rank());
+}
+
+MatrixX unheld_motions(const SupportMatrices& support, const MatrixX& rigid) {
+  Eigen::FullPivLU<MatrixX> lu;
+  lu.setThreshold(kUnheld);
+  lu.compute(resistance(support, rigid));
+  if (lu.dimensionOfKernel() == 0) return MatrixX(rigid.rows(), 0);
+  return rigid * lu.kernel();
 }
 
 ReleasedModes release(const Modes& supported, const SparseMatrix& M, const SupportMatrices& support,

@@ -14,6 +14,9 @@ struct SupportMatrices {
 /// Number of independent rigid-body motions (columns of Psi_0) that springs or joints resist.
 int held_motions(const SupportMatrices& support, const MatrixX& rigid);
 
+/// Combinations of the rigid-body motions (n x k) that neither springs nor joints resist; no columns where there are none.
+MatrixX unheld_motions(const SupportMatrices& support, const MatrixX& rigid);
+
 /// Free-free elastic modes of a structure that was measured on a support.
 struct ReleasedModes {
   Modes modes;           ///< unit modal mass, orthogonal to rigid motion

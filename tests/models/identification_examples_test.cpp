@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "identification/formats/csv_modal_data.h"
+#include "identification/judgement/mac.h"
 #include "models/scene_loader.h"
 #include "text_files.h"
 
@@ -144,6 +145,40 @@ TEST(IdentificationExamples, SayHowTheMeasuredFileWasMade) {
   const ModalData read = load_identification(folder / "chassis_test.yaml").task.measured;
   ASSERT_EQ(read.mode_count(), made.modes.mode_count());
   EXPECT_LT((read.omega - made.modes.omega).cwiseQuotient(read.omega).cwiseAbs().maxCoeff(), 1e-5);
+}
+
+std::filesystem::path input(const std::string& name) {
+  return std::filesystem::path(WISHBONE_TEST_DATA) / "identify" / name;
+}
+
+TEST(IdentificationInputs, OfAModelThatIsHeldNameItsNodes) {
+  EXPECT_THAT(
+      message_of<InputError>([] { load_identification(input("held_model.yaml")); }),
+      HasSubstr(
+          "its stiffness must not resist rigid-body motion: the model is that of the free structure (got "
+          "nodes "));
+}
+
+TEST(IdentificationInputs, KeepElasticModesBesideARigidOneOfFiveDigits) {
+  const IdentificationTask task = load_identification(input("near_rigid.yaml")).task;
+  const Identification found = identify(task);
+  ASSERT_EQ(found.modes.mode_count(), 2);
+  const double kTwoPi = 2 * 3.141592653589793;
+  EXPECT_NEAR(found.modes.omega[0] / kTwoPi, 31.367, 1e-6);
+  EXPECT_NEAR(found.modes.omega[1] / kTwoPi, 39.723, 1e-6);
+  const MatrixX mac = modal_assurance(found.modes.shapes, task.measured.shapes.rightCols(2));
+  EXPECT_GE(mac.diagonal().minCoeff(), 1 - 1e-8);
+}
+
+TEST(IdentificationInputs, OfScatteredModesNeedNoNoiseToBeStated) {
+  IdentificationTask task = load_identification(input("scattered.yaml")).task;
+  const Identification found = identify(task);
+  EXPECT_NEAR(found.judgement.shape_scatter, 1e-3, 1e-4);
+  const VectorX hz = found.modes.omega / (2 * 3.141592653589793);
+  EXPECT_NEAR(hz[0], 17.353, 0.05);
+  EXPECT_NEAR(hz[8], 57.41, 0.05);
+  task.noise = MeasurementNoise{0, 1e-3, 2, 1};
+  EXPECT_LE((identify(task).modes.omega - found.modes.omega).cwiseAbs().maxCoeff(), 1e-9);
 }
 
 }  // namespace

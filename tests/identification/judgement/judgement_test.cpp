@@ -1,9 +1,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "identification/judgement/mac.h"
+#include "identification/judgement/matching.h"
 #include "identification/judgement/monte_carlo.h"
 #include "identification/methods/released_modes.h"
 #include "identification/methods/support_matrices.h"
@@ -29,12 +32,61 @@ TEST(Mac, IsTheSquaredCosine) {
   EXPECT_EQ(modal_assurance(A, MatrixX::Zero(2, 1))(0, 0), 0) << "nothing resembles a shape of zeros";
 }
 
-TEST(Partners, AreTakenOnceBestFirst) {
-  MatrixX mac(3, 3);
-  mac << 0.9, 0.8, 0.0,  //
-      0.95, 0.5, 0.0,    //
-      0.1, 0.2, 0.3;
-  EXPECT_THAT(partners(mac), testing::ElementsAre(1, 0, -1));
+/// An orthogonal matrix by chance.
+MatrixX turn(Eigen::Index count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  const MatrixX any = MatrixX::NullaryExpr(count, count, [&] { return normal(random); });
+  return any.householderQr().householderQ();
+}
+
+TEST(Matching, TakesEveryReferenceModeOnceBestFirst) {
+  MatrixX shapes(3, 3);
+  shapes << 1, 1, 0,  //
+      0.5, 0.1, 0,    //
+      0, 0, 1;
+  const MatrixX reference = MatrixX::Identity(3, 2);
+  EXPECT_THAT(match_modes(shapes, reference, Vector3(1, 2, 0).head(2)).partner,
+              testing::ElementsAre(-1, 0, -1));
+}
+
+TEST(Matching, PairsAllModesOfAGroupHoweverTheyAreTurned) {
+  const Modes modes = chassis().elastic().lowest(12);
+  VectorX omega = VectorX::LinSpaced(12, 1, 12);
+  omega.segment(3, 5) << 4, 4, 4.0001, 4.002, 4.003;
+  for (const unsigned seed : {1, 2, 3, 4}) {
+    MatrixX shapes = modes.shapes;
+    shapes.middleCols(3, 5) *= turn(5, seed);
+    const Matching matching = match_modes(shapes, modes.shapes, omega);
+    EXPECT_THAT(matching.partner, testing::ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11));
+    EXPECT_LE((matching.mac.diagonal() - VectorX::Ones(12)).cwiseAbs().maxCoeff(), 1e-12);
+  }
+}
+
+TEST(Matching, PairsTheModesThatWereFoundOfAGroup) {
+  const MatrixX reference = chassis().elastic().lowest(8).shapes;
+  const VectorX omega = VectorX::Constant(8, 3);
+  const MatrixX two = (reference * turn(8, 5)).leftCols(2);
+  const Matching matching = match_modes(two, reference, omega);
+  EXPECT_THAT(matching.partner, testing::ElementsAre(0, 1));
+  EXPECT_LE((matching.mac.leftCols(2).diagonal() - VectorX::Ones(2)).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(Matching, DoesNotPairWhatLiesOutsideTheGroup) {
+  const MatrixX all = chassis().elastic().lowest(9).shapes;
+  MatrixX shapes = all.leftCols(5) * turn(5, 6);
+  shapes.col(2) = all.col(7);
+  const std::vector<int> partner = match_modes(shapes, all.leftCols(5), VectorX::Constant(5, 3)).partner;
+  EXPECT_EQ(partner[2], -1);
+  EXPECT_EQ(std::count(partner.begin(), partner.end(), -1), 1);
+}
+
+TEST(Matching, KeepsApartWhatDiffersInFrequency) {
+  const MatrixX reference = chassis().elastic().lowest(2).shapes;
+  MatrixX shapes(reference.rows(), 2);
+  shapes << reference.col(0) + 0.3 * reference.col(1), reference.col(1) - 0.3 * reference.col(0);
+  const Matching matching = match_modes(shapes, reference, Eigen::Vector2d(1, 1.01));
+  EXPECT_LE(matching.mac(0, 0), 0.95);
 }
 
 TEST(MonteCarlo, ScattersAsMeasuredWhenNothingIsDone) {
