@@ -41,11 +41,13 @@ struct Facts {
 
 /// Times of the rows that are good: all, unless the run is under way or was killed.
 VectorX good_times(const hdf5::File& file) {
-  const VectorX all = file.read_matrix("/time");
-  if (!file.contains("/meta/rows")) return all;
+  const hdf5::Dataset time = file.open_dataset("/time");
+  const hdf5::Shape shape = time.shape();
+  if (shape.size() != 1 || !file.contains("/meta/rows")) return file.read_matrix("/time");
   const MatrixX rows = file.read_matrix("/meta/rows");
-  const bool fewer = rows.size() == 1 && rows(0, 0) >= 0 && rows(0, 0) < static_cast<double>(all.size());
-  return fewer ? VectorX(all.head(static_cast<Eigen::Index>(rows(0, 0)))) : all;
+  const bool fewer = rows.size() == 1 && rows(0, 0) >= 0 && rows(0, 0) < static_cast<double>(shape[0]);
+  const std::vector<double> good = time.read_rows(fewer ? static_cast<std::size_t>(rows(0, 0)) : shape[0]);
+  return Eigen::Map<const VectorX>(good.data(), static_cast<Eigen::Index>(good.size()));
 }
 
 Facts gather(const hdf5::File& file) {
