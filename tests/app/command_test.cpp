@@ -107,7 +107,8 @@ TEST_F(CommandTest, BadInputGivesTwo) {
   EXPECT_THAT(call("rnu").text, AllOf(HasSubstr("wishbone: error: no such command (got 'rnu')"),
                                       HasSubstr("did you mean 'run'?")));
   EXPECT_EQ(call("info").code, 2);
-  EXPECT_THAT(call("info " + (folder_ / "absent.h5")).text, HasSubstr("absent.h5: error: no such file"));
+  EXPECT_THAT(call("info " + (folder_ / "absent.h5")).text,
+              HasSubstr("absent.h5: error: there is no such file"));
   EXPECT_EQ(call("info " + (folder_ / "absent.h5")).code, 2);
   EXPECT_EQ(call("check " + a() + " --against " + (folder_ / "absent.h5")).code, 2);
   EXPECT_EQ(call("check " + a() + " --against " + a() + " --tol nonsense").code, 2);

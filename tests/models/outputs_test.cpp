@@ -259,7 +259,7 @@ TEST(WorkCounters, CountWhatASceneHas) {
 const char* const kTwoFallingBodies = R"(
 wishbone: 1
 bodies:
-  stone: {mass: 1, inertia: [1, 1, 1]}
+  stone: {mass: 1, inertia: [1, 1, 1], position: [0, 0, 0]}
   feather: {mass: 0.01, inertia: [1, 1, 1], position: [1, 0, 0]}
 analysis: {duration: 0.1 s}
 )";
