@@ -47,7 +47,7 @@ namespace {
 /// The prescribed motion with the largest acceleration, or nothing.
 std::string fastest_motion_text(const System& system, double t) {
   std::string name;
-  double fastest = -1;
+  double fastest = 0;
   const auto look = [&](const std::string& joint, const Motion& motion) {
     const double acceleration = std::abs(motion.at(t).acceleration);
     if (!(acceleration > fastest)) return;

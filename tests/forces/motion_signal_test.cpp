@@ -35,6 +35,20 @@ TEST(MotionSignal, CarriesDerivatives) {
   EXPECT_DOUBLE_EQ(u.d[2], 0.6);
 }
 
+TEST(MotionSignal, OfADistanceThatIsZeroIsZeroAndItsRateThatOfParting) {
+  using enum MotionSignal::Quantity;
+  std::vector<MarkerStateT<Dual>> markers(2);
+  markers[1].p_WM.x().d[0] = 1;
+  const std::span<const MarkerStateT<Dual>> all(markers);
+  const MotionSignal distance("distance", 0, 1, {Gauge::Kind::distance}, position);
+  const MotionSignal rate("rate", 0, 1, {Gauge::Kind::distance}, speed);
+  EXPECT_EQ(distance.value(all, 0).value, 0);
+  EXPECT_EQ(distance.value(all, 0).d[0], 0);  // no derivative is claimed at the kink
+  EXPECT_EQ(rate.value(all, 0).value, 0);
+  markers[1].v_WM << -3.0, 4.0, 0.0;
+  EXPECT_DOUBLE_EQ(rate.value(all, 0).value, 5);
+}
+
 TEST(MotionSignal, RejectsWhatCannotBeMeasured) {
   EXPECT_THROW(MotionSignal("gap", 2, 2, {Gauge::Kind::distance}, MotionSignal::Quantity::position),
                InputError);

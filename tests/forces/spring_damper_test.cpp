@@ -92,6 +92,17 @@ TEST(SpringDamper, NamesItselfWhenItsEndsMeet) {
       ::testing::StartsWith("front spring at t = 0 s: error: the ends of the spring must not coincide"));
 }
 
+TEST(SpringDamper, OfNoFreeLengthPullsByTheOffsetAndTheRateWhereItsEndsMeet) {
+  const SpringDamper spring("spring", 0, 1, 50, 4, 0);
+  std::vector<MarkerState> markers(2);
+  markers[1].v_WM = Vector3(1, 2, -2);
+  const Applied at_zero = applied(spring, markers);
+  EXPECT_LT((at_zero.wrenches[0].f - 4 * markers[1].v_WM).norm(), 1e-14);
+  EXPECT_NEAR(at_zero.power, -4 * 9, 1e-12);  // -c |v|^2
+  markers[1].p_WM = 1e-12 * markers[1].v_WM;  // a moment later
+  EXPECT_LT((applied(spring, markers).wrenches[0].f - at_zero.wrenches[0].f).norm(), 1e-9);
+}
+
 TEST(SpringDamper, RejectsNegativeDataByName) {
   using ::testing::HasSubstr;
   EXPECT_THAT(message_of<InputError>([] { SpringDamper("s1", 0, 1, -1, 0, 0); }),

@@ -177,7 +177,7 @@ TEST(Motion, FailsInWordsWhereItIsUndefined) {
   };
   EXPECT_EQ(message(Motion("drive", expression("1/(t - 1)")), 1),
             "drive at t = 1 s: error: the motion has no value, rate or acceleration (got inf)\n"
-            "  look for a root of zero, a division by zero or a jump in its expression");
+            "  look for a root of zero, a division by zero, an overflow or a jump in its expression");
   EXPECT_NE(message(Motion("drive", expression("sqrt(t)")), 0), "");
   EXPECT_EQ(message(Motion("drive", Function(sampled_sine(Table::Interpolation::spline))), 3),
             "drive at t = 3 s: error: the table of the motion does not reach this time (got 2)\n"
