@@ -182,7 +182,7 @@ void add_scales(std::vector<Finding> scaled, std::vector<SensorFault>& faults) {
       sum += scaled[end].scale;
     }
     std::sort(fault.nodes.begin(), fault.nodes.end());
-    fault.what = fmt::format("the scale is {:.3g} times that of the other nodes{}",
+    fault.what = fmt::format("the scale is about {:.2g} times that of the other nodes{}",
                              sum / static_cast<double>(fault.nodes.size()),
                              fault.nodes.size() > 1 ? ", as of another measurement setup" : "");
     faults.push_back(std::move(fault));

@@ -121,7 +121,7 @@ TEST(SensorFaults, ATurnedSensorIsNamedWithItsAngle) {
 
 double scale_in(const std::string& what) {
   double scale = 0;
-  return std::sscanf(what.c_str(), "the scale is %lf times", &scale) == 1 ? scale : 0;
+  return std::sscanf(what.c_str(), "the scale is about %lf times", &scale) == 1 ? scale : 0;
 }
 
 TEST(SensorFaults, ASetupOfAnotherScaleIsNamedWithItsNodes) {
