@@ -9,6 +9,7 @@ namespace wishbone {
 namespace {
 
 constexpr double kLightest = 1, kDensest = 30000;  // kg/m3
+constexpr double kLongest = 1000;                  // m
 constexpr double kFastest = 20000;                 // m/s
 constexpr const char* kRemedy =
     "state the unit of length: dataset 164 of a Universal File, or x[mm], y[mm], z[mm] above the columns of "
@@ -85,6 +86,9 @@ std::optional<Diagnostic> doubt_of_units(const BodyExtent& extent, double lowest
                       extent.size.y(), extent.size.z(), most < kLightest ? most : least),
           kRemedy};
   }
+  if (extent.mass == 0 && length > kLongest)
+    return Diagnostic{"", "this is the size of a mountain: lengths are probably not in m but in mm",
+                      fmt::format("{:.4g} m", length), kRemedy};
   const double frequency = lowest_omega / (2 * std::numbers::pi);
   if (!(2 * length * frequency > kFastest)) return std::nullopt;
   return Diagnostic{

@@ -23,13 +23,14 @@ BodyExtent body_extent(const ModalData& data, const SparseMatrix& M);
 /// "size 2.4 x 0.4 x 0.4 m; mass 1000 kg, mass centre (0, 0, 0) m, inertia about it ...".
 std::string describe(const BodyExtent& extent);
 
-/// Why lengths or masses are probably not in m and kg, in words; nothing where they may be. Two tests that know of no
+/// Why lengths or masses are probably not in m and kg, in words; nothing where they may be. Tests that know of no
 /// material:
 /// * mass over volume of the box is 1 to 30 000 kg/m3 (from a light truss to tungsten), thin directions of the box counted
 ///   as 1 % of the longest against the one bound and as 20 % against the other. Millimetres read as metres are wrong by
 ///   10^9;
 /// * no structure has all of its frequencies above c / 2L, the first longitudinal one of a bar of its length: twice the
 ///   lowest frequency times the length is below 20 km/s (c is 5 km/s in steel, 12 km/s in beryllium).
+/// A structure of unknown mass that is longer than 1 km is doubted too.
 /// `lowest_omega`: of the modes [rad/s].
 std::optional<Diagnostic> doubt_of_units(const BodyExtent& extent, double lowest_omega);
 

@@ -61,7 +61,8 @@ TEST(DoubtOfUnits, MillimetresForMetresAreFoundByDensityAndWithoutMassesByWaveSp
     EXPECT_THAT(doubt_of(in_unit(data, 1e-3)), HasSubstr("the mass does not suit the size"));
     data.node_mass.resize(0);
     EXPECT_EQ(doubt_of(data), "");
-    EXPECT_THAT(doubt_of(in_unit(data, 1000)), HasSubstr("waves do not run so fast"));
+    EXPECT_THAT(doubt_of(in_unit(data, 1000)), HasSubstr("this is the size of a mountain"));
+    EXPECT_THAT(doubt_of(in_unit(data, 400)), HasSubstr("waves do not run so fast"));
   }
 }
 
