@@ -30,12 +30,12 @@ MatrixX written(const MatrixX& shapes, int digits) {
   });
 }
 
-struct Test {
+struct Measurement {
   TestStructure s;
   SupportMatrices support;
   Modes modes;
 
-  Test(TestStructure structure, const Support& on, Eigen::Index count)
+  Measurement(TestStructure structure, const Support& on, Eigen::Index count)
       : s(std::move(structure)), support(support_matrices(on, s.freedoms())) {
     const ModalData data = measured_on(s, on, count);
     modes = {data.omega.cwiseAbs2(), data.shapes};
@@ -45,8 +45,8 @@ struct Test {
   }
 };
 
-std::vector<Test> tests() {
-  std::vector<Test> tests;
+std::vector<Measurement> tests() {
+  std::vector<Measurement> tests;
   tests.emplace_back(chassis(), chassis_springs_with_masses(), 30);
   tests.emplace_back(chassis(), chassis_joints(), 20);
   tests.emplace_back(slender_block(), Support{}, 15);
@@ -56,7 +56,7 @@ std::vector<Test> tests() {
 }
 
 TEST(ShapeScatter, IsFoundFromTheModesThemselves) {
-  for (const Test& test : tests())
+  for (const Measurement& test : tests())
     for (const double size : {1e-4, 1e-3, 1e-2, 5e-2}) {
       constexpr int kRepetitions = 20;
       double mean = 0;
@@ -73,17 +73,17 @@ TEST(ShapeScatter, IsFoundFromTheModesThemselves) {
 }
 
 TEST(ShapeScatter, IsNoneOfExactShapes) {
-  for (const Test& test : tests()) EXPECT_LE(test.estimate(test.modes.shapes), 1e-9);
+  for (const Measurement& test : tests()) EXPECT_LE(test.estimate(test.modes.shapes), 1e-9);
 }
 
 TEST(ShapeScatter, IsNotMisledByASpringThatIsStatedWrongly) {
-  Test test(chassis(), chassis_springs(), 30);
+  Measurement test(chassis(), chassis_springs(), 30);
   test.support.K_s *= 1.2;
   EXPECT_NEAR(test.estimate(scattered(test.modes.shapes, 1e-2, 3)), 1e-2, 2e-3);
 }
 
 TEST(ShapeScatter, KnowsTheDigitsThatWereWritten) {
-  const Test test(chassis(), chassis_springs(), 30);
+  const Measurement test(chassis(), chassis_springs(), 30);
   for (const int digits : {3, 4, 5, 6}) {
     const MatrixX shapes = written(test.modes.shapes, digits);
     const double error =
