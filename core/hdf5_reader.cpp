@@ -22,7 +22,7 @@ namespace {
 
 /// What reading a file of this size may take: far more than any intact one does.
 IsolatedProcess::Limits limits_for(std::uintmax_t bytes) {
-  constexpr double kSlowest = 10e6;  // [bytes/s]
+  constexpr double kSlowest = 3e6;  // [bytes/s]
   IsolatedProcess::Limits limits;
   limits.processor_seconds = 0.5 + static_cast<double>(bytes) / kSlowest;
   limits.memory_bytes += 16 * bytes;
