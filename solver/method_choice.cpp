@@ -74,7 +74,7 @@ bool MethodChoice::due(double t, const ProgressGuard& guard) {
   return true;
 }
 
-/// BDF above order 2 is unstable for vibrations that are fast against the step and hardly damped.
+/// In falling order of accuracy. BDF above order 2 is unstable for vibrations that are fast against the step and hardly damped.
 std::vector<IntegratorOptions> MethodChoice::others() const {
   std::vector<IntegratorOptions> others;
   const auto add = [&](Method method, int max_order) {
@@ -96,8 +96,8 @@ std::optional<BetterMethod> MethodChoice::try_others(const State& state, const W
   for (const IntegratorOptions& other : others()) {
     const double gain =
         pace_ / pace_of(system_, other, state, work, t_stop, kTrialShare * work_, ws, keep_going);
-    const double wanted = other.method == Method::erk ? 1 : kStiff;
-    if (gain > wanted && (!best || gain > best->gain)) best = {state.t, chosen_, other, gain};
+    const double wanted = (other.method == Method::erk ? 1 : kStiff) * (best ? best->gain : 1);
+    if (gain > wanted) best = {state.t, chosen_, other, gain};
   }
   return best;
 }

@@ -143,7 +143,8 @@ TEST(Allocation, NoneInTheRatesAndTheJacobianOfFirstOrder) {
   for (const NamedMechanism& around : testing::around_every_part()) {
     SCOPED_TRACE(around.part);
     Workspace ws = testing::with_independent_rows(around.mechanism);
-    FirstOrderSystem equations(around.mechanism.system, ws);
+    ProgressGuard guard({}, {});
+    FirstOrderSystem equations(around.mechanism.system, ws, guard);
     expect_no_allocation_of(equations, around.mechanism);
   }
 }
@@ -151,7 +152,8 @@ TEST(Allocation, NoneInTheRatesAndTheJacobianOfFirstOrder) {
 TEST(Allocation, NoneInTheRatesAndTheJacobianOfIndependentCoordinates) {
   Built m = testing::four_bar(RevoluteClosure{}, 6);
   Workspace ws = testing::assembled(m);
-  PartitionedSystem equations(m.system, ws);
+  ProgressGuard guard({}, {});
+  PartitionedSystem equations(m.system, ws, guard);
   expect_no_allocation_of(equations, m);
 }
 

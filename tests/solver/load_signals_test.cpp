@@ -9,6 +9,7 @@
 #include "solver/ggl_residual.h"
 #include "solver/kinematics.h"
 #include "solver/loads.h"
+#include "solver/mechanisms.h"
 #include "solver/sparsity.h"
 #include "solver/system_builder.h"
 

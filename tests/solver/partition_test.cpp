@@ -84,7 +84,8 @@ double least_singular_value(const MatrixX& D, unsigned columns) {
 
 /// The dependent speeds of a partition that starts at a state, a bit each.
 unsigned dependent_speeds(const Built& m, Workspace& ws) {
-  PartitionedSystem equations(m.system, ws);
+  ProgressGuard guard({}, {});
+  PartitionedSystem equations(m.system, ws, guard);
   VectorX y(equations.size());
   equations.pack(m.state, {}, y);
   unsigned dependent = (1u << m.system.nv) - 1;
@@ -125,7 +126,8 @@ TEST(Partition, ChoosesNearlyTheBestConditionedOfAllPartitions) {
 /// J = df/dy away from the reference pose of the partition.
 void expect_exact_jacobian(Built m, double bound) {
   Workspace ws = assembled(m);
-  PartitionedSystem equations(m.system, ws);
+  ProgressGuard guard({}, {});
+  PartitionedSystem equations(m.system, ws, guard);
   const Eigen::Index n = equations.size();
   VectorX y(n);
   equations.pack(m.state, {}, y);
