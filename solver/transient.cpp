@@ -20,6 +20,7 @@
 namespace wishbone {
 namespace {
 
+constexpr long kPatience = 10'000;  // steps between two looks at the progress
 /// A redundant row that is open by more follows from no others: the closures contradict each other [m, rad].
 constexpr double kContradiction = 1e-6;
 
@@ -86,6 +87,7 @@ class Run {
         emit_until(t);
         check_limits(t);
         guard_.accept(t);
+        check_progress(t);
         if (keep_going_ && t < options_.duration && !keep_going_(t)) throw Interrupted{};
         if (!step.events.empty()) restart(t, summary, step.events);
         if (t < stop) accept(t, summary);
@@ -245,6 +247,16 @@ class Run {
                          std::to_string(steps_), "raise analysis.max_steps or loosen the tolerances"});
   }
 
+  /// Steps that shrink for ever reach no end: a rate at which the run would take more than 1e13 steps is a failure at once.
+  void check_progress(double t) {
+    if (steps_ % kPatience != 0) return;
+    if (t - t_patience_ < 1e-9 * options_.duration)
+      throw HopelessRun({fmt::format("t = {:.9g} s", t), "the steps have become too small to go on",
+                           fmt::format("{:g} s for the last {} steps", t - t_patience_, kPatience),
+                           "look for a singular position, a discontinuity or a shock at this time"});
+    t_patience_ = t;
+  }
+
   const System& system_;
   const TransientOptions& options_;
   Workspace& ws_;
@@ -266,6 +278,7 @@ class Run {
   long next_output_ = 0;
   long steps_ = 0;
   double t_reached_ = 0;  // end of the last step [s]
+  double t_patience_ = 0;
 };
 
 }  // namespace
