@@ -12,9 +12,19 @@ constexpr std::size_t kTrialSteps = 200;  // the second half of them is measured
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// Evaluations per simulated second of a method, started at `state`; infinite when it fails.
-double pace_of(const System& system, const IntegratorOptions& options, const State& state, const Work& work,
-               double t_stop, double most_work, Workspace ws, const std::function<bool(double)>& keep_going) {
+/// Evaluations in a step of erk. Where accuracy alone limits the steps, those of bdf are the shorter ones, whatever they cost:
+/// explicit steps are left for longer ones only.
+constexpr double kExplicitStep = 8;
+
+/// How a method gets on.
+struct Pace {
+  double work = kNever;  ///< evaluations per simulated second; infinite when it fails
+  double step = 0;       ///< [s]
+};
+
+/// Of a method that is started at `state`.
+Pace pace_of(const System& system, const IntegratorOptions& options, const State& state, const Work& work,
+             double t_stop, double most_work, Workspace ws, const std::function<bool(double)>& keep_going) {
   ProgressGuard guard({}, [&](double) { return !keep_going || keep_going(state.t); });
   guard.start(state.t);
   struct Mark {
@@ -35,11 +45,12 @@ double pace_of(const System& system, const IntegratorOptions& options, const Sta
       if (!step.events.empty()) break;
     }
   } catch (const NumericsError&) {
-    return kNever;
+    return {};
   }
-  const Mark& half = marks[(marks.size() - 1) / 2];
-  const Mark& end = marks.back();
-  return end.t > half.t ? (end.work - half.work) / (end.t - half.t) : kNever;
+  const std::size_t last = marks.size() - 1, half = last / 2;
+  const double time = marks[last].t - marks[half].t;
+  if (!(time > 0)) return {};
+  return {(marks[last].work - marks[half].work) / time, time / static_cast<double>(last - half)};
 }
 
 }  // namespace
@@ -94,8 +105,9 @@ std::optional<BetterMethod> MethodChoice::try_others(const State& state, const W
                                                      const std::function<bool(double)>& keep_going) const {
   std::optional<BetterMethod> best;
   for (const IntegratorOptions& other : others()) {
-    const double gain =
-        pace_ / pace_of(system_, other, state, work, t_stop, kTrialShare * work_, ws, keep_going);
+    const Pace pace = pace_of(system_, other, state, work, t_stop, kTrialShare * work_, ws, keep_going);
+    if (chosen_.method == Method::erk && pace.step * pace_ < kStiff * kExplicitStep) continue;
+    const double gain = pace_ / pace.work;
     const double wanted = (other.method == Method::erk ? 1 : kStiff) * (best ? best->gain : 1);
     if (gain > wanted) best = {state.t, chosen_, other, gain};
   }

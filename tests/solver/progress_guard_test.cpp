@@ -79,7 +79,8 @@ TEST(ProgressGuard, InterruptsARunWithinTheFirstStepOfEachIntegrator) {
     options.interval = 0.1;
     int asked = 0;
     const TransientSummary summary = run_transient(
-        m.system, m.state, options, ws, [](const State&, const Work&) {}, [&](double) { return ++asked < 30; });
+        m.system, m.state, options, ws, [](const State&, const Work&) {},
+        [&](double) { return ++asked < 30; });
     EXPECT_EQ(summary.status, TransientSummary::Status::interrupted) << to_string(form) << to_string(method);
     EXPECT_EQ(asked, 30);
     EXPECT_LT(summary.t_end, 10);
