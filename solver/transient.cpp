@@ -217,7 +217,7 @@ class Run {
     if (method_.form == Form::ggl || (!free && better_)) return;
     interpolate(t);
     const auto better = choice_->try_others(state_, work_, stop, ws_, keep_going_);
-    if (!better) return;
+    if (!better || (!free && better->gain < MethodChoice::kStiff)) return;
     // an order within the method that was asked for is free too
     if (!free && better->to.method != method_.method) {
       better_ = better;
