@@ -40,9 +40,15 @@ void write_with(int digits, ModalData& data) {
 
 /// A free test that lists the rigid-body modes too, all six or some of them, at frequencies of their own.
 ModalData with_rigid_modes(const TestStructure& s, int rigid, double hz, int elastic) {
-  ModalData data = measured_on(s, {}, rigid + elastic);
-  data.shapes.rightCols(elastic) = data.shapes.leftCols(elastic).eval();
-  data.omega.tail(elastic) = data.omega.head(elastic).eval();
+  ModalData data = measured_on(s, {}, elastic);
+  MatrixX shapes(s.n(), rigid + elastic);
+  VectorX omega(rigid + elastic);
+  shapes.rightCols(elastic) = data.shapes;
+  omega.tail(elastic) = data.omega;
+  data.shapes = shapes;
+  data.omega = omega;
+  data.damping_ratio = VectorX::Zero(rigid + elastic);
+  data.modal_mass = VectorX::Ones(rigid + elastic);
   // no basis that geometry suggests
   const MatrixX turned =
       MatrixX::NullaryExpr(6, 6, [](auto i, auto j) { return std::sin(1.0 + 7 * i + 3 * j * j); })
