@@ -131,7 +131,7 @@ class Reader {
  private:
   AnalyticalModel read_free_model(const Value& value) {
     AnalyticalModel model = read_model(value, files_);
-    located(value.where(), [&] {
+    within(value.where(), [&] {
       check_is_free(model);
       return 0;
     });
