@@ -19,7 +19,7 @@ bodies:
     form: modal
     position: [0.5, 0.05, 0.05]
     flexible:
-      block: {size: [1, 0.1, 0.1], elements: [2, 1, 1]}
+      block: {size: [1, 0.1, 0.1], elements: [2, 1, 1], element: mean_dilatation}
       material: {young: = E, poisson: 0.3, density: 1000}
       modes: {select: modes, few: 9, none: none}
       damping: 1
