@@ -11,9 +11,9 @@
 #include "core/error.h"
 #include "solver/deflection_watch.h"
 #include "solver/events.h"
+#include "solver/failure_cause.h"
 #include "solver/forward_dynamics.h"
 #include "solver/kinematics.h"
-#include "solver/failure_cause.h"
 #include "solver/loads.h"
 #include "solver/run_check.h"
 
@@ -252,8 +252,8 @@ class Run {
     if (steps_ % kPatience != 0) return;
     if (t - t_patience_ < 1e-9 * options_.duration)
       throw HopelessRun({fmt::format("t = {:.9g} s", t), "the steps have become too small to go on",
-                           fmt::format("{:g} s for the last {} steps", t - t_patience_, kPatience),
-                           "look for a singular position, a discontinuity or a shock at this time"});
+                         fmt::format("{:g} s for the last {} steps", t - t_patience_, kPatience),
+                         "look for a singular position, a discontinuity or a shock at this time"});
     t_patience_ = t;
   }
 
