@@ -104,11 +104,15 @@ class Doubts {
   void joints() {
     for (const Scene::Joint& joint : scene_.joints)
       for (std::size_t i = 0; i < joint.position.size(); ++i)
-        if (info(joint.kind).coordinates[i].is_angle && is_whole_degrees(joint.position[i].value_or(0)))
-          doubt(joint.where, "the joint starts turns away from its design pose",
-                fmt::format("{:g} rad, which are {:.3g} turns", joint.position[i],
-                            *joint.position[i] / (2 * std::numbers::pi)),
-                fmt::format("is it in degrees? write '{:g} deg' then", *joint.position[i]));
+        if (info(joint.kind).coordinates[i].is_angle && joint.position[i])
+          doubt_angle(joint, *joint.position[i]);
+  }
+
+  void doubt_angle(const Scene::Joint& joint, double angle) {
+    if (!is_whole_degrees(angle)) return;
+    doubt(joint.where, "the joint starts turns away from its design pose",
+          fmt::format("{:g} rad, which are {:.3g} turns", angle, angle / (2 * std::numbers::pi)),
+          fmt::format("is it in degrees? write '{:g} deg' then", angle));
   }
 
   static bool is_whole_degrees(double angle) {
