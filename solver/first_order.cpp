@@ -161,7 +161,8 @@ void FirstOrderSystem::calc_events(double t, const Eigen::Ref<const VectorX>& y,
 
 double FirstOrderSystem::jacobian_cost() const {
   const auto n = static_cast<double>(size_);
-  return n / 2 + n * n / 200;  // measured: derivatives in half a rate for each direction, dense factors
+  return n / 2 +
+         n * n / 200;  // estimated: half a rate for each direction of the derivatives, and the dense factors
 }
 
 double FirstOrderSystem::tolerance_scale() const {
