@@ -1,5 +1,6 @@
 #include "identification/judgement/sensor_faults.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -89,7 +90,7 @@ TEST(SensorFaults, AFlippedChannelIsNamed) {
       ModalData data = test_of(structure);
       const int node = structure.node_ids[5];
       data.shapes.row(*data.row({node, axis})) *= -1;
-      EXPECT_EQ(only_fault(data, {node}), std::string("the sign of ") + "xyz"[axis] + " is flipped");
+      EXPECT_EQ(only_fault(data, {node}), fmt::format("the sign of {} is flipped", "xyz"[axis]));
     }
 }
 
