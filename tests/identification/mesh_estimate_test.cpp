@@ -21,8 +21,9 @@ struct Compared {
 Compared first_bending(const Mesh& mesh) {
   const ModeSet set = free_free_modes(mesh, kStructuralSteel);
   // 4.7300^2 sqrt(E I / (rho A L^4)); rotary inertia and shear take 0.9 percent at L/h = 33
-  const double beam = 0.991 * 4.73004 * 4.73004 *
-                      std::sqrt(kStructuralSteel.youngs_modulus / kSteel.density * 0.03 * 0.03 / 12);
+  const double beam =
+      0.991 * 4.73004 * 4.73004 *
+      std::sqrt(kStructuralSteel.youngs_modulus / kStructuralSteel.density * 0.03 * 0.03 / 12);
   return {set.omega[0] / beam, frequency_ratios(mesh, kStructuralSteel, set.shapes.leftCols<1>())[0]};
 }
 
