@@ -95,7 +95,10 @@ void expect_same_instant(const Drawn& d) {
   std::vector<Vector6> accelerations, joint_reactions, closure_reactions;
   for (int i = 0; i < static_cast<int>(ws.bodies.size()); ++i) {
     accelerations.push_back(ws.bodies[i].A);
-    const Vector6 on_first = tree_joint_reaction(system, ws, i);
+    // Simbody's are about the outboard point Mo of the joint
+    const Vector3 p_WMo = ws.bodies[i].X_WB.p - ws.bodies[i].p_MB;
+    const Vector6 on_first =
+        shift_wrench<double>(tree_joint_reaction(system, ws, i), tree_joint_point(system, ws, i) - p_WMo);
     joint_reactions.push_back(system.bodies[i].first_is_child ? on_first : Vector6(-on_first));
   }
   for (const Closure& closure : system.closures)
