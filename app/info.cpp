@@ -1,10 +1,15 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "app/command.h"
 #include "app/meta_text.h"

@@ -9,29 +9,30 @@
 #include <string_view>
 #include <system_error>
 
+#include "core/ascii.h"
 #include "core/did_you_mean.h"
 #include "core/error.h"
 
 namespace wishbone {
 namespace {
 
-struct Function {
+struct NamedFunction {
   std::string_view name;
   Operation operation;
   int arguments;  ///< 0: one or more
 };
 
 constexpr std::array kFunctions{
-    Function{"abs", Operation::abs, 1},     Function{"acos", Operation::acos, 1},
-    Function{"asin", Operation::asin, 1},   Function{"atan", Operation::atan, 1},
-    Function{"atan2", Operation::atan2, 2}, Function{"cos", Operation::cos, 1},
-    Function{"cosh", Operation::cosh, 1},   Function{"exp", Operation::exp, 1},
-    Function{"ln", Operation::ln, 1},       Function{"log10", Operation::log10, 1},
-    Function{"max", Operation::max, 0},     Function{"min", Operation::min, 0},
-    Function{"sign", Operation::sign, 1},   Function{"sin", Operation::sin, 1},
-    Function{"sinh", Operation::sinh, 1},   Function{"sqrt", Operation::sqrt, 1},
-    Function{"step", Operation::step, 5},   Function{"tan", Operation::tan, 1},
-    Function{"tanh", Operation::tanh, 1}};
+    NamedFunction{"abs", Operation::abs, 1},     NamedFunction{"acos", Operation::acos, 1},
+    NamedFunction{"asin", Operation::asin, 1},   NamedFunction{"atan", Operation::atan, 1},
+    NamedFunction{"atan2", Operation::atan2, 2}, NamedFunction{"cos", Operation::cos, 1},
+    NamedFunction{"cosh", Operation::cosh, 1},   NamedFunction{"exp", Operation::exp, 1},
+    NamedFunction{"ln", Operation::ln, 1},       NamedFunction{"log10", Operation::log10, 1},
+    NamedFunction{"max", Operation::max, 0},     NamedFunction{"min", Operation::min, 0},
+    NamedFunction{"sign", Operation::sign, 1},   NamedFunction{"sin", Operation::sin, 1},
+    NamedFunction{"sinh", Operation::sinh, 1},   NamedFunction{"sqrt", Operation::sqrt, 1},
+    NamedFunction{"step", Operation::step, 5},   NamedFunction{"tan", Operation::tan, 1},
+    NamedFunction{"tanh", Operation::tanh, 1}};
 
 struct Sign {
   std::string_view text;
@@ -39,12 +40,6 @@ struct Sign {
 };
 using Signs = std::initializer_list<Sign>;
 
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-bool is_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-}
 bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\n' || c == '\r';
 }
@@ -180,8 +175,8 @@ class ExpressionParser {
   }
 
   void call(const std::string& word, std::size_t begin) {
-    const auto* function =
-        std::find_if(kFunctions.begin(), kFunctions.end(), [&](const Function& f) { return f.name == word; });
+    const auto* function = std::find_if(kFunctions.begin(), kFunctions.end(),
+                                        [&](const NamedFunction& f) { return f.name == word; });
     if (function == kFunctions.end()) {
       at_ = begin;
       refuse(fmt::format("there is no function '{}'", word),
@@ -291,7 +286,7 @@ ExpressionProgram parse_expression(const std::string& text, const NameReader& re
 const std::vector<std::string>& expression_functions() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> list;
-    for (const Function& f : kFunctions) list.emplace_back(f.name);
+    for (const NamedFunction& f : kFunctions) list.emplace_back(f.name);
     return list;
   }();
   return names;

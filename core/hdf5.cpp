@@ -7,20 +7,12 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/hdf5_contents.h"
 #include "core/hdf5_library.h"
 
 namespace wishbone::hdf5 {
 
 static_assert(std::is_same_v<Handle::Id, hid_t>, "HDF5 1.10 or later has 64-bit identifiers");
-
-namespace {
-
-std::string join(const std::string& parent, const std::string& path) {
-  if (path.starts_with('/')) return path;
-  return parent == "/" ? "/" + path : parent + "/" + path;
-}
-
-}  // namespace
 
 void leave_out_exit_handler() {
   H5dont_atexit();
@@ -75,14 +67,14 @@ bool Group::contains(const std::string& path) const {
 Group Group::open_group(const std::string& path) const {
   const Silence silence;
   Handle handle(H5Gopen2(id(), path.c_str(), H5P_DEFAULT), H5Gclose);
-  if (handle.get() < 0) fail_writing(file_path() + ":" + join(this->path(), path), "no such group");
+  if (handle.get() < 0) fail_writing(file_path() + ":" + joined_path(this->path(), path), "no such group");
   return Group(std::move(handle));
 }
 
 Dataset Group::open_dataset(const std::string& path) const {
   const Silence silence;
   Handle handle(H5Dopen2(id(), path.c_str(), H5P_DEFAULT), H5Dclose);
-  if (handle.get() < 0) fail_writing(file_path() + ":" + join(this->path(), path), "no such dataset");
+  if (handle.get() < 0) fail_writing(file_path() + ":" + joined_path(this->path(), path), "no such dataset");
   return Dataset(std::move(handle));
 }
 

@@ -1,6 +1,9 @@
 #include "core/hdf5_contents.h"
 
 #include <cstdint>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "core/packed_bytes.h"
 
@@ -74,6 +77,12 @@ ObjectFacts take_facts(PackedReader& bytes) {
 }
 
 }  // namespace
+
+std::string joined_path(const std::string& parent, const std::string& path) {
+  if (path == "." || path.empty()) return parent;
+  if (path.starts_with('/')) return path;
+  return parent == "/" ? "/" + path : parent + "/" + path;
+}
 
 std::string packed(const Contents& contents) {
   PackedBytes bytes;

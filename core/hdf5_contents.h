@@ -21,6 +21,9 @@ struct ObjectFacts {
 /// Every group and dataset by its absolute path, the root "/" among them.
 using Contents = std::map<std::string, ObjectFacts>;
 
+/// The path of what `parent` knows as `path`, which may be absolute; "" and "." mean the parent itself.
+std::string joined_path(const std::string& parent, const std::string& path);
+
 std::string packed(const Contents& contents);
 /// Throws std::out_of_range for bytes that are not those of packed().
 Contents unpacked_contents(std::string_view bytes);

@@ -3,12 +3,12 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <functional>
 #include <numeric>
 #include <utility>
+#include <variant>
 
 #include "core/error.h"
 #include "core/hdf5_contents.h"
@@ -33,12 +33,6 @@ std::uintmax_t size_of_file(const std::string& path) {
   if (const auto fault = input_fault(path)) throw InputError({path, fault->what, "", fault->remedy});
   std::error_code unknown;
   return std::filesystem::file_size(path, unknown);
-}
-
-std::string join(const std::string& parent, const std::string& path) {
-  if (path == "." || path.empty()) return parent;
-  if (path.starts_with('/')) return path;
-  return parent == "/" ? "/" + path : parent + "/" + path;
 }
 
 }  // namespace
@@ -131,7 +125,7 @@ std::vector<double> DatasetReader::read_rows(std::size_t rows) const {
 }
 
 bool GroupReader::contains(const std::string& path) const {
-  return file_->objects().contains(join(path_, path));
+  return file_->objects().contains(joined_path(path_, path));
 }
 
 std::vector<std::string> GroupReader::members() const {
@@ -156,7 +150,7 @@ std::vector<std::string> GroupReader::dataset_paths() const {
 
 std::string GroupReader::find(const std::string& path, bool dataset) const {
   const Contents& objects = file_->objects();
-  const std::string wanted = join(path_, path);
+  const std::string wanted = joined_path(path_, path);
   if (const auto found = objects.find(wanted); found != objects.end() && found->second.is_dataset == dataset)
     return wanted;
   // what the deepest existing group above has to offer

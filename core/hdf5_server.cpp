@@ -4,7 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
+#include <new>
+#include <optional>
 #include <utility>
 #include <vector>
 

@@ -19,6 +19,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/descriptor.h"
 #include "core/error.h"
 #include "core/packed_bytes.h"
 
@@ -162,6 +163,28 @@ void answer(std::string_view request, const std::string& subject, const Isolated
 
 // --- the parent --------------------------------------------------------------------------------------------------------
 
+namespace {
+
+constexpr const char* kGone = "the process that reads it ended";
+
+/// How the child ended. One that goes on (the channel closes a moment before the process is gone, hence the patience) is killed;
+/// of that, and of one that somebody else has waited for, there is nothing to tell.
+std::optional<int> ending_of(pid_t child) {
+  if (child <= 0) return {};
+  int status = 0;
+  for (int tries = 0; tries < 100; ++tries) {
+    const pid_t ended = waitpid(child, &status, WNOHANG);
+    if (ended == child) return status;
+    if (ended < 0 && errno != EINTR) return {};
+    usleep(1000);
+  }
+  kill(child, SIGKILL);
+  while (waitpid(child, nullptr, 0) < 0 && errno == EINTR) continue;
+  return {};
+}
+
+}  // namespace
+
 IsolatedProcess::IsolatedProcess(std::string subject, const Limits& limits, const Serve& serve)
     : subject_(std::move(subject)), limits_(limits) {
   const auto refuse = [&](const char* what) {
@@ -213,7 +236,9 @@ void IsolatedProcess::ask(std::string_view request, const Send& take) {
 char IsolatedProcess::receive(std::string& piece) {
   char head[kHeader];
   receive(head, kHeader);
-  piece.resize(length_in(head));
+  const std::uint64_t length = length_in(head);
+  if (length > limits_.memory_bytes) fail("the process that reads it answers with more than it may hold");
+  piece.resize(length);
   receive(piece.data(), piece.size());
   return head[0];
 }
@@ -223,11 +248,18 @@ void IsolatedProcess::receive(char* bytes, std::size_t count) {
   while (count > 0) {
     pollfd wait{socket_, POLLIN, 0};
     const int ready = poll(&wait, 1, 1000);
-    if (ready == 0 && ++idle_seconds > limits_.idle_seconds) fail();
+    if (ready < 0 && errno != EINTR) {
+      const std::string reason = system_reason(errno);
+      end();  // what is left of this answer would be taken for the next one's
+      throw NumericsError({subject_, "the process that reads it cannot be waited for: " + reason, "",
+                           "free memory, or allow this process more open files"});
+    }
+    if (ready == 0 && ++idle_seconds > limits_.idle_seconds)
+      fail(fmt::format("reading it does not end within {} s", limits_.idle_seconds));
     if (ready <= 0) continue;
     const ssize_t n = recv(socket_, bytes, count, 0);
     if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) fail();
+    if (n <= 0) fail(kGone);
     idle_seconds = 0;
     bytes += n;
     count -= static_cast<std::size_t>(n);
@@ -235,28 +267,18 @@ void IsolatedProcess::receive(char* bytes, std::size_t count) {
 }
 
 void IsolatedProcess::send(std::string_view bytes) {
-  if (!send_all(socket_, bytes)) fail();
+  if (!send_all(socket_, bytes)) fail(kGone);
 }
 
-void IsolatedProcess::fail() {
-  int status = 0;
-  siginfo_t ended{};
-  // Nothing to wait for yet: it hangs (or has ended a moment ago: the channel closes before the process is gone).
-  for (int tries = 0; child_ > 0 && tries < 100 && ended.si_pid == 0; ++tries) {
-    if (waitid(P_PID, static_cast<id_t>(child_), &ended, WEXITED | WNOHANG | WNOWAIT) != 0) break;
-    if (ended.si_pid == 0) usleep(1000);
-  }
-  if (ended.si_pid == 0 && child_ > 0) kill(child_, SIGKILL);
-  if (child_ > 0 && waitpid(child_, &status, 0) != child_) status = 0;
-  child_ = -1;
-
-  std::string what = "the process that reads it ended", value;
-  if (ended.si_pid == 0 || (WIFSIGNALED(status) && WTERMSIG(status) == SIGPROF)) {
+void IsolatedProcess::fail(std::string what) {
+  std::string value;
+  const std::optional<int> status = ending_of(std::exchange(child_, -1));
+  if (status && WIFSIGNALED(*status) && WTERMSIG(*status) == SIGPROF) {
     what =
         fmt::format("reading it does not end within {:.2g} s of processor time", limits_.processor_seconds);
-  } else if (WIFSIGNALED(status)) {
+  } else if (status && WIFSIGNALED(*status)) {
     what = "the library that reads it crashed on it";
-    value = strsignal(WTERMSIG(status));
+    value = strsignal(WTERMSIG(*status));
   }
   throw InputError(
       {subject_, "the file is broken: " + what, value, "take an intact copy, or write it again"});

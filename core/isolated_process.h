@@ -39,7 +39,8 @@ class IsolatedProcess {
   char receive(std::string& piece);
   void receive(char* bytes, std::size_t count);
   void send(std::string_view bytes);
-  [[noreturn]] void fail();
+  /// What is wrong, unless the way that the child ended says it.
+  [[noreturn]] void fail(std::string what);
   void end();
 
   std::string subject_;

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/partial_file.h"
 
 namespace wishbone {
 namespace {
@@ -39,6 +40,7 @@ std::string owner_of(const Descriptor& file) {
 
 /// Of the processes that find the file at once, the one that locks it while it has its name is the owner.
 Descriptor lock(const std::string& path) {
+  check_is_file_or_free(path);
   for (;;) {
     Descriptor file = Descriptor::open_or_make(path + ".lock");
     if (flock(file.get(), LOCK_EX | LOCK_NB) != 0) refuse(path, file, errno);

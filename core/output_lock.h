@@ -12,7 +12,7 @@ namespace wishbone {
 class OutputLock {
  public:
   /// @throws InputError when another process, or another part of this one, writes there: names its process number;
-  ///   NumericsError when the lock file cannot be made
+  ///   NumericsError when the lock file cannot be made, or what has the name is no file (a device, a folder)
   OutputLock(std::string path);  // NOLINT(google-explicit-constructor): a path to write to is a lock to take
   /// Removes the lock file.
   ~OutputLock();

@@ -7,11 +7,18 @@
 
 namespace wishbone {
 
+/// A file takes the place of whatever bears its name, which must not be a device, a pipe or a folder, be it by way of a link.
+/// @throws NumericsError when it is
+void check_is_file_or_free(const std::string& path);
+
 /// A file that bears another name in the same folder, PATH.partial-XXXXXX, until it is whole and on the disk: a writer that fails
 /// or is killed leaves whatever had the name PATH before as it was, and two writers never mix. Every failure is a NumericsError
-/// with the operating system's reason.
+/// with the operating system's reason. What has the name PATH and is no file is refused before anything is made.
 class PartialFile {
  public:
+  /// Whether a file of that name is, or was left by, a writer of `path` that has not finished.
+  static bool is_name_of(std::string_view name, std::string_view path);
+
   /// Makes the file, empty.
   explicit PartialFile(std::string path);
   /// Removes the file unless it was finished.

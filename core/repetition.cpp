@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/ascii.h"
 #include "core/error.h"
 #include "core/yaml.h"
 
@@ -46,10 +47,6 @@ std::string whole_number(const std::string& expression, const Source& where, Par
   throw InputError({where.text(), fmt::format("'{{{}}}' is no whole number", expression),
                     fmt::format("'{}'", value),
                     "write a counter within the brackets, such as {i} or {i + 1}"});
-}
-
-bool is_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
 }
 
 /// "{N - 1}" in "link_{N - 1}": what stands in brackets behind a letter and begins with one; else nothing.

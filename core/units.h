@@ -35,6 +35,8 @@ inline constexpr Dimension kDensity{"density", "kg/m3"};
 inline constexpr Dimension kPressure{"pressure", "Pa"};
 inline constexpr Dimension kForcePerAngle{"force per angle", "N/rad"};
 
+inline constexpr double kStandardGravity = 9.80665;  ///< [m/s^2]
+
 /// A number read from text, in SI.
 struct Quantity {
   double value = 0;

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/ascii.h"
 #include "core/did_you_mean.h"
 #include "core/parameters.h"
 
@@ -33,13 +34,6 @@ Source place_of(const YamlNode::Entry& entry, std::string path) {
   Source where = entry.value->kind == Kind::kScalar ? entry.value->where : entry.where;
   where.path = std::move(path);
   return where;
-}
-
-bool is_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-}
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
 }
 
 bool is_name(std::string_view name, std::string_view extra) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "bodies/mode_set.h"
 #include "identification/elements/mesh.h"
 

@@ -1,9 +1,8 @@
 #include "models/compile.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <iterator>
+#include <tuple>
 #include <utility>
 
 #include "bodies/nodal_shapes.h"

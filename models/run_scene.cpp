@@ -174,11 +174,12 @@ RunResult run_scene(const Scene& scene, const CompiledScene& compiled, const Run
   check_start(scene, compiled);
   Observer observer(compiled.system, compiled.observer);
   check_paths(scene, observer.signals());
+  const std::vector<std::string> unmatched =
+      within(scene.output.where, [&] { return observer.keep(scene.output.record); });
   for (const IdentifiedBody& body : compiled.identified)
     write_identification(identified_modes_path(request.output_path, body.body), body.identification);
   RunResult result;
   Workspace ws(compiled.system);
-  const std::vector<std::string> unmatched = observer.keep(scene.output.record);
   Recorder recorder(std::move(output), observer.signals(),
                     {.expected_rows = expected_rows(compiled.transient)});
 

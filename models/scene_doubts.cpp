@@ -31,7 +31,6 @@ class Doubts {
     gravity();
     for (const Scene::Body& body : scene_.bodies) flexible(body);
     for (std::size_t b = 0; b < scene_.bodies.size(); ++b) inertia(static_cast<int>(b));
-    joints();
     twins();
     tires();
     return std::move(warnings_);
@@ -101,24 +100,6 @@ class Doubts {
             "is the inertia in kg mm2 or kg cm2, or the mass in t? write the units");
   }
 
-  void joints() {
-    for (const Scene::Joint& joint : scene_.joints)
-      for (std::size_t i = 0; i < joint.position.size(); ++i)
-        if (info(joint.kind).coordinates[i].is_angle && joint.position[i])
-          doubt_angle(joint, *joint.position[i]);
-  }
-
-  void doubt_angle(const Scene::Joint& joint, double angle) {
-    if (!is_whole_degrees(angle)) return;
-    doubt(joint.where, "the joint starts turns away from its design pose",
-          fmt::format("{:g} rad, which are {:.3g} turns", angle, angle / (2 * std::numbers::pi)),
-          fmt::format("is it in degrees? write '{:g} deg' then", angle));
-  }
-
-  static bool is_whole_degrees(double angle) {
-    return std::abs(angle) >= 15 && std::remainder(angle, 15.0) == 0;
-  }
-
   static bool same(const Scene::Point& a, const Scene::Point& b) {
     return a.body == b.body && a.node == b.node && a.frame == b.frame && (a.p_DP - b.p_DP).isZero(1e-12);
   }
@@ -140,8 +121,9 @@ class Doubts {
   static bool twins(const Scene::Closure& a, const Scene::Closure& b) {
     if (a.type != b.type) return false;
     if (a.type != Scene::ClosureType::kCoupling)
-      return same_ends(a, b) && a.direction_D == b.direction_D && a.motion == b.motion;
-    return a.terms.size() == b.terms.size() &&
+      return same_ends(a, b) && a.direction_D == b.direction_D && a.motion == b.motion &&
+             a.length == b.length;
+    return a.terms.size() == b.terms.size() && a.constant == b.constant &&
            std::equal(a.terms.begin(), a.terms.end(), b.terms.begin(), [](const auto& s, const auto& t) {
              return s.of.joint == t.of.joint && s.of.coordinate == t.of.coordinate && s.factor == t.factor;
            });
@@ -246,15 +228,23 @@ Warnings doubts_of(const Scene& scene) {
   return Doubts(scene).all();
 }
 
+namespace {
+
+/// Whether a number was written as such: with a unit, or by an expression, it is meant as it is.
+bool is_plain(const Value& value) {
+  return value.node()->origin.empty() && parse_quantity(value.text()).base.empty();
+}
+
+}  // namespace
+
 void doubt_damping(const Value& damping, Warnings& warnings) {
   if (damping.is_list()) {
     for (const Value& item : damping.list()) doubt_damping(item, warnings);
     return;
   }
-  if (damping.is_mapping() || !damping.node()->origin.empty()) return;
+  if (damping.is_mapping() || !is_plain(damping)) return;
   const double ratio = damping.number(kRatio);
-  if (ratio <= kMostDamping || !parse_quantity(damping.text()).base.empty() || damping.text().ends_with('%'))
-    return;
+  if (ratio <= kMostDamping || damping.text().ends_with('%')) return;
   warnings.push_back(
       {damping.where().text(), "modes are damped beyond critically",
        fmt::format("a damping ratio of {:g}", ratio),
@@ -263,8 +253,17 @@ void doubt_damping(const Value& damping, Warnings& warnings) {
 
 void doubt_angle(const Value& angle, Warnings& warnings) {
   const double value = angle.number(kAngle);
-  if (std::abs(value) <= 2 * std::numbers::pi || !parse_quantity(angle.text()).base.empty()) return;
+  if (std::abs(value) <= 2 * std::numbers::pi || !is_plain(angle)) return;
   warnings.push_back({angle.where().text(), "the angle is more than a turn", fmt::format("{:g} rad", value),
+                      fmt::format("is it in degrees? write '{:g} deg' then", value)});
+}
+
+void doubt_joint_angle(const Value& angle, Warnings& warnings) {
+  const double value = angle.number(kAngle);
+  const bool whole_degrees = std::abs(value) >= 15 && std::remainder(value, 15.0) == 0;
+  if (!whole_degrees || !is_plain(angle)) return;
+  warnings.push_back({angle.where().text(), "the joint starts turns away from its design pose",
+                      fmt::format("{:g} rad, which are {:.3g} turns", value, value / (2 * std::numbers::pi)),
                       fmt::format("is it in degrees? write '{:g} deg' then", value)});
 }
 

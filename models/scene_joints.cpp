@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "models/scene_coordinates.h"
+#include "models/scene_doubts.h"
 #include "models/scene_sections.h"
 #include "models/scene_tree.h"
 
@@ -125,7 +126,8 @@ void refuse_without_coordinates(const Mapping& keys, const JointKindInfo& kind) 
 }
 
 /// `position` and `speed` of coordinates; of a spherical joint `speed` is its angular velocity.
-void read_initial_motion(const Mapping& keys, const JointKindInfo& kind, Scene::Joint& joint) {
+void read_initial_motion(const Mapping& keys, const JointKindInfo& kind, Scene::Joint& joint,
+                         Warnings& warnings) {
   const auto read = [&](std::string_view key, std::vector<std::optional<double>>& values, bool rate) {
     const auto value = keys.optional(key);
     if (!value) return;
@@ -137,6 +139,7 @@ void read_initial_motion(const Mapping& keys, const JointKindInfo& kind, Scene::
     for_each_coordinate(*value, kind, [&](int i, const Value& v) {
       const bool angle = kind.coordinates[i].is_angle;
       values[i] = v.number(rate ? (angle ? kAngularVelocity : kVelocity) : (angle ? kAngle : kLength));
+      if (angle && !rate) doubt_joint_angle(v, warnings);
     });
   };
   read("position", joint.position, false);
@@ -200,7 +203,7 @@ void read_axes(const Mapping& keys, Scene::Joint& joint) {
 }
 
 Scene::Joint read_joint(const std::string& name, const Value& value,
-                        const std::vector<std::string>& motion_names, const Scene& scene) {
+                        const std::vector<std::string>& motion_names, Scene& scene) {
   const Mapping keys(value, {"type", "bodies", "at", "axis", "second_axis", "pitch", "cut", "position",
                              "speed", "motion", "assembly_weight", "spring", "friction", "limits"});
   Scene::Joint joint;
@@ -238,7 +241,7 @@ Scene::Joint read_joint(const std::string& name, const Value& value,
   read_axes(keys, joint);
   refuse_without_coordinates(keys, kind);
   read_motion(keys, kind, motion_names, joint);
-  read_initial_motion(keys, kind, joint);
+  read_initial_motion(keys, kind, joint, scene.warnings);
   read_joint_forces(keys, kind, joint);
   return joint;
 }

@@ -11,8 +11,6 @@
 namespace wishbone {
 namespace {
 
-/// A row is redundant when what it has orthogonal to the rows before it is shorter than this part of its scale.
-constexpr double kRankTolerance = 1e-7;
 /// Kept rows this close to dependent are compared with the best choice ...
 constexpr double kWeakSine = 0.05;
 /// ... and exchanged when that is so much better.

@@ -6,6 +6,9 @@
 
 namespace wishbone {
 
+/// A row is redundant when what it has orthogonal to the rows before it is shorter than this part of its scale.
+inline constexpr double kRankTolerance = 1e-7;
+
 /// Rows of an independent subset, by orthogonalising the columns of U one after the other, that is the rows of D in the
 /// metric of kinetic energy (so that metres and radians compare). Call with all rows kept. Earlier rows are preferred, so
 /// that the same rows are named from scene to scene.

@@ -8,12 +8,15 @@
 namespace wishbone {
 namespace {
 
-/// The nearest points that lie apart from point i, nearest first.
+/// The nearest points that lie apart from point i, nearest first. Between points that all but coincide, as on two sides of a weld,
+/// a difference of displacements is no gradient.
 std::vector<int> nearest(const Matrix3X& points, int i) {
   constexpr std::size_t kNeighbours = 6;
+  constexpr double kApart = 1e-3;  // of the diagonal of the box of all points
+  const double apart = kApart * (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm();
   std::vector<std::pair<double, int>> others;
   for (int j = 0; j < points.cols(); ++j)
-    if (const double distance = (points.col(j) - points.col(i)).norm(); distance > 0)
+    if (const double distance = (points.col(j) - points.col(i)).norm(); distance > apart)
       others.emplace_back(distance, j);
   const std::size_t count = std::min(kNeighbours, others.size());
   std::partial_sort(others.begin(), others.begin() + static_cast<std::ptrdiff_t>(count), others.end());

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -31,7 +30,7 @@ class DeflectionWatch {
 
  private:
   struct Pair {
-    int a = 0, b = 0;             ///< places in `nodes`
+    int a = 0, b = 0;             ///< places in `node_ids`
     double inverse_distance = 0;  ///< [1/m]
   };
   struct Body {

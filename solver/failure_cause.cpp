@@ -38,6 +38,7 @@ std::vector<std::string> motions_against(const System& system, int row, double t
 
 NumericsError explained(const NumericsError& error, const System& system, double t, const VectorX& x,
                         const Workspace& ws) {
+  if (dynamic_cast<const StepsFailed*>(&error) == nullptr) return error;  // says itself what it comes from
   const int row = ws.closure.least_row;
   if (near_singular(ws) && row >= 0) {
     const std::vector<std::string> motions = motions_against(system, row, t);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/units.h"
 #include "solver/assembly.h"
 #include "solver/closure_rank.h"
 #include "solver/events.h"
@@ -15,8 +16,7 @@
 namespace wishbone {
 namespace {
 
-constexpr double kStandardGravity = 9.80665;  // [m/s^2]
-constexpr int kMostFailures = 50;             // of evaluations at one time
+constexpr int kMostFailures = 50;  // of evaluations at one time
 
 State sized_state(const System& system) {
   return {0, VectorX::Zero(system.nq), VectorX::Zero(system.nv), VectorX::Zero(system.nx)};

@@ -70,8 +70,12 @@ class FirstOrderSystem {
   int guard(Body&& body, double evaluations = 1) noexcept {
     try {
       progress_.count(evaluations);
-      if constexpr (std::is_same_v<std::invoke_result_t<Body>, bool>) return body() ? 0 : 1;
-      body();
+      if constexpr (std::is_same_v<std::invoke_result_t<Body>, bool>) {
+        if (!body()) return 1;
+      } else {
+        body();
+      }
+      if (state_.t > t_stuck_) failures_ = 0;  // of steps that have been taken otherwise since
       return 0;
     } catch (const HopelessRun&) {
       failure_ = std::current_exception();

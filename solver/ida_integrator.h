@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "solver/integrator.h"
 
 namespace wishbone {

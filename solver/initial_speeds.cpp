@@ -10,16 +10,16 @@
 
 #include "solver/articulated_body.h"
 #include "solver/closure_dynamics.h"
+#include "solver/closure_rank.h"
 #include "solver/kinematics.h"
 
 namespace wishbone {
 namespace {
 
-constexpr double kRankTolerance = 1e-7;  // of what is left of a row, by its length
-constexpr double kExact = 1e-9;          // relative deviation of a given speed that is rounding
-constexpr double kRounding = 1e-12;      // where all are zero [m/s, rad/s]
-constexpr double kFewDigits = 1e-3;      // relative deviation that stands for digits left out
-constexpr double kTakesPart = 1e-6;      // of a row in another one
+constexpr double kExact = 1e-9;           // relative deviation of a given speed that is rounding
+constexpr double kSpeedRounding = 1e-12;  // where all are zero [m/s, rad/s]
+constexpr double kFewDigits = 1e-3;       // relative deviation that stands for digits left out
+constexpr double kTakesPart = 1e-6;       // of a row in another one
 
 /// Rows u . w = b met by the smallest w, one after the other: U = Q R, R^T y = b, w = Q y.
 class Staircase {
@@ -207,7 +207,7 @@ void solve_given_speeds(const System& system, const std::vector<GivenSpeed>& giv
       continue;
     }
     const double scale = std::max(std::abs(given.value), std::abs(speed)) + found.scale;
-    if (std::abs(found.open) <= kExact * (scale + largest) + kRounding) continue;
+    if (std::abs(found.open) <= kExact * (scale + largest) + kSpeedRounding) continue;
     const VectorX factors = rows.combination(found);
     const Conflict conflict{given, given.value - found.open, participants(system, kept, before, factors)};
     double size = std::abs(given.value);

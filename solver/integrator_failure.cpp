@@ -9,7 +9,7 @@ void throw_integrator_failure(FirstOrderSystem& equations, const std::string& in
   if (const std::exception_ptr failure = equations.take_failure()) {
     try {
       std::rethrow_exception(failure);
-    } catch (const HopelessRun&) {
+    } catch (const StepsFailed&) {
       throw;  // says when
     } catch (const NumericsError& error) {
       Diagnostic d = error.diagnostic();
@@ -17,9 +17,11 @@ void throw_integrator_failure(FirstOrderSystem& equations, const std::string& in
       throw NumericsError(d);
     }
   }
+  // the two energies only where nothing else is integrated: every freedom is driven
+  const Eigen::Index candidates = equations.size() > 2 ? equations.size() - 2 : 2;
   Eigen::Index worst = 0;
-  blame.head(equations.size() - 2).cwiseAbs().maxCoeff(&worst);
-  throw NumericsError(
+  blame.head(candidates).cwiseAbs().maxCoeff(&worst);
+  throw StepsFailed(
       {fmt::format("t = {:.9g} s: {}", t, equations.name(worst)),
        fmt::format("{} gave up ({}); this coordinate had the largest share in the error{}", integrator, flag,
                    equations.largest_force()),

@@ -172,7 +172,7 @@ bool PartitionedSystem::find_dependent(State& state) {
 
 /// d_J of the independent displacements in d: from those closed last, and where that is too far for Newton, by way of poses
 /// between, each at most half as far as failed before.
-/// @throws NumericsError when even small parts of the way are too far; d is then what was closed last
+/// @throws StepsFailed when even small parts of the way are too far; d is then what was closed last
 void PartitionedSystem::close_positions(State& state) {
   wanted_ = d_;
   for (const int j : dependent_) d_[j] = closed_[j];
@@ -188,9 +188,9 @@ void PartitionedSystem::close_positions(State& state) {
       d_ = closed_;
       part /= 2;
       if (part < kLeastPart)
-        throw NumericsError({fmt::format("t = {:.9g} s", state.t),
-                             "the dependent coordinates could not be found from the closures", "",
-                             "tighten analysis.rtol, or use form index1 near singular positions"});
+        throw StepsFailed({fmt::format("t = {:.9g} s", state.t),
+                           "the dependent coordinates could not be found from the closures", "",
+                           "tighten analysis.rtol, or use form index1 near singular positions"});
     }
   }
 }

@@ -18,8 +18,10 @@ ProgressGuard::ProgressGuard(Limits limits, std::function<bool(double)> keep_goi
 }
 
 void ProgressGuard::start(double t) {
-  t_ = t_patience_ = t;
-  step_work_ = patience_work_ = work_;
+  t_ = t;
+  step_work_ = work_;
+  work_mark_ = {t, work_};
+  step_mark_ = {t, static_cast<double>(steps_)};
 }
 
 void ProgressGuard::count(double evaluations) {
@@ -38,16 +40,22 @@ void ProgressGuard::count(double evaluations) {
 void ProgressGuard::accept(double t) {
   t_ = t;
   step_work_ = work_;
-  const double spent = work_ - patience_work_;
-  if (spent < kPatience / limits_.size) return;
-  if (t - t_patience_ < limits_.least_progress)
+  ++steps_;
+  if (!(limits_.least_progress > 0)) return;
+  look(step_mark_, static_cast<double>(steps_), kStepPatience, kLeastAdvance * limits_.duration, "steps");
+  look(work_mark_, work_, kPatience / limits_.size, limits_.least_progress, "evaluations");
+}
+
+void ProgressGuard::look(Mark& mark, double effort, double patience, double least, const char* unit) const {
+  const double spent = effort - mark.effort;
+  if (spent < patience) return;
+  if (t_ - mark.t < least)
     throw HopelessRun(
-        {fmt::format("t = {:.9g} s", t), "the steps have become too small to go on",
-         fmt::format("{:g} s in the last {:g} evaluations", t - t_patience_, spent),
+        {fmt::format("t = {:.9g} s", t_), "the steps have become too small to go on",
+         fmt::format("{:g} s in the last {:g} {}", t_ - mark.t, spent, unit),
          "look for a singular position, a discontinuity, a shock or an extreme stiffness at this time, "
          "or loosen the tolerances; with analysis.max_steps given the run goes on up to that number"});
-  t_patience_ = t;
-  patience_work_ = work_;
+  mark = {t_, effort};
 }
 
 }  // namespace wishbone

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/partial_file.h"
 #include "solver/result_layout.h"
 
 namespace wishbone {
@@ -54,7 +55,7 @@ OutputLock without_leftovers(OutputLock output) {
   for (const auto& entry : std::filesystem::directory_iterator(
            path.has_parent_path() ? path.parent_path() : std::filesystem::path("."), unknown)) {
     const std::string other = entry.path().filename().string();
-    if (other.starts_with(name + ".partial-") || other.starts_with(name + ".partial.partial-"))
+    if (PartialFile::is_name_of(other, name) || PartialFile::is_name_of(other, name + ".partial"))
       leftovers.push_back(entry.path());
   }
   for (const std::filesystem::path& leftover : leftovers) std::filesystem::remove(leftover, unknown);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 #include "core/partial_file.h"
 #include "solver/result_layout.h"

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <iterator>
 #include <type_traits>
+#include <variant>
 
+#include "core/units.h"
 #include "joints/motion_jump.h"
 #include "solver/inverse_dynamics.h"
 #include "solver/loads.h"
@@ -18,7 +20,6 @@ namespace {
 constexpr double kStepsOfError = 1000;
 /// ... and at most: a run that loses more is not to be trusted, however loose its tolerance.
 constexpr double kMostDrift = 0.05;
-constexpr double kStandardGravity = 9.80665;  // [m/s^2]
 constexpr double kRounding = 1e-12;
 /// Closures are projected at every output; open by more, they are not closed [m, rad].
 constexpr double kOpen = 1e-8;

@@ -1,12 +1,14 @@
 #include "solver/transient.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <memory>
 #include <optional>
+#include <span>
+#include <utility>
 
 #include "core/error.h"
 #include "solver/deflection_watch.h"
@@ -20,7 +22,6 @@
 namespace wishbone {
 namespace {
 
-constexpr long kPatience = 10'000;  // steps between two looks at the progress
 /// A redundant row that is open by more follows from no others: the closures contradict each other [m, rad].
 constexpr double kContradiction = 1e-6;
 
@@ -87,7 +88,6 @@ class Run {
         emit_until(t);
         check_limits(t);
         guard_.accept(t);
-        check_progress(t);
         if (keep_going_ && t < options_.duration && !keep_going_(t)) throw Interrupted{};
         if (!step.events.empty()) restart(t, summary, step.events);
         if (t < stop) accept(t, summary);
@@ -121,7 +121,8 @@ class Run {
  private:
   static ProgressGuard::Limits limits(const System& system, const TransientOptions& options) {
     const double least = std::min(ProgressGuard::kLeastProgress * options.duration, options.interval);
-    return {double(system.nv + system.n_rows), options.integrator.max_steps > 0 ? 0 : least};
+    return {double(system.nv + system.n_rows), options.integrator.max_steps > 0 ? 0 : least,
+            options.duration};
   }
 
   double output_time(long k) const { return static_cast<double>(k) * options_.interval; }
@@ -151,9 +152,9 @@ class Run {
     normalize_quaternions(system_, state_.q);
     if (ws_.closure.kept.empty()) return;
     if (!project(system_, kProjectionTolerance, state_, ws_, integrator_->implicit_step()))
-      throw NumericsError({fmt::format("t = {:.9g} s", t),
-                           "the state could not be brought back onto the cut joints", "",
-                           "tighten analysis.rtol, or look for a singular position at this time"});
+      throw StepsFailed({fmt::format("t = {:.9g} s", t),
+                         "the state could not be brought back onto the cut joints", "",
+                         "tighten analysis.rtol, or look for a singular position at this time"});
   }
 
   void restart(double t, TransientSummary& summary, std::span<const int> events = {}) {
@@ -204,7 +205,7 @@ class Run {
     interpolate(t);
     const int row = open_redundant_row();
     if (row < 0) return;
-    throw NumericsError(
+    throw StepsFailed(
         {fmt::format("t = {:.9g} s, {}", t, system_.row_name(row)),
          "the joints contradict each other: no pose near this one closes them all",
          fmt::format("open by {:.3g} (m or rad)", std::abs(ws_.Phi[row])),
@@ -247,16 +248,6 @@ class Run {
                          std::to_string(steps_), "raise analysis.max_steps or loosen the tolerances"});
   }
 
-  /// Steps that shrink for ever reach no end: a rate at which the run would take more than 1e13 steps is a failure at once.
-  void check_progress(double t) {
-    if (steps_ % kPatience != 0) return;
-    if (t - t_patience_ < 1e-9 * options_.duration)
-      throw HopelessRun({fmt::format("t = {:.9g} s", t), "the steps have become too small to go on",
-                         fmt::format("{:g} s for the last {} steps", t - t_patience_, kPatience),
-                         "look for a singular position, a discontinuity or a shock at this time"});
-    t_patience_ = t;
-  }
-
   const System& system_;
   const TransientOptions& options_;
   Workspace& ws_;
@@ -278,7 +269,6 @@ class Run {
   long next_output_ = 0;
   long steps_ = 0;
   double t_reached_ = 0;  // end of the last step [s]
-  double t_patience_ = 0;
 };
 
 }  // namespace

@@ -27,7 +27,7 @@ struct TransientSummary {
   IntegratorOptions integrator;  ///< as resolved
   AssemblyReport assembly;
   Statistics statistics;                     ///< of all methods together
-  std::vector<BetterMethod> method_changes;  ///< by integrator `auto`, where another took less work
+  std::vector<BetterMethod> method_changes;  ///< of `auto`, and of the order of a given bdf
   long restarts = 0;  ///< of the integrator at events, kinks of prescribed motions and changes of variables
   std::vector<SingularPassage> singular_passages;
   Warnings warnings;  ///< what should be doubted of the results
@@ -39,8 +39,8 @@ using Output = std::function<void(const State&, const Work&)>;
 /// Assembles the initial state and integrates the equations of motion, calling `output` at every multiple of the interval.
 /// Stops and restarts the integrator at kinks of prescribed motions and at road edges. `keep_going` is asked, with the
 /// time reached, after every step and now and then within one; false interrupts the run. Where the integrator is `auto`
-/// the method changes when another takes less work (solver/method_choice.h); work without progress ends the run
-/// (solver/progress_guard.h).
+/// the method changes when another takes less work, and where it is bdf its order may be limited (solver/method_choice.h); work
+/// without progress ends the run (solver/progress_guard.h).
 /// @throws InputError when the state cannot be assembled; numerical failure comes back in the summary, after all output
 ///   that was computed
 TransientSummary run_transient(const System& system, State state, const TransientOptions& options,

@@ -196,10 +196,11 @@ TEST_F(CommandTest, ToleranceOfTheCommandLineThatTouchesNoSignalIsRefused) {
 TEST_F(CommandTest, OutputThatCannotBeWrittenOrIsAnInputIsRefusedFirst) {
   std::filesystem::create_directory(folder_ / "folder");
   std::filesystem::create_symlink(a(), folder_ / "also_a.h5");
+  std::filesystem::create_symlink("/dev/full", folder_ / "device");  // never by its own name: it can be lost
   std::filesystem::copy(a(), folder_ / "c.h5.partial");
   const std::string before = bytes(a());
   for (const std::string& output :
-       {std::string("''"), folder_ / "absent/x", folder_ / "folder", std::string("/dev/full"), a(),
+       {std::string("''"), folder_ / "absent/x", folder_ / "folder", folder_ / "device", a(),
         folder_ / "also_a.h5", folder_ / "folder/../a.h5", folder_ / std::string(300, 'x')}) {
     EXPECT_EQ(call("extract " + a() + " -o " + output).code, 2) << output;
     EXPECT_EQ(call("compare " + b() + " " + a() + " --html " + output).code, 2) << output;
@@ -208,6 +209,7 @@ TEST_F(CommandTest, OutputThatCannotBeWrittenOrIsAnInputIsRefusedFirst) {
   EXPECT_EQ(call("extract " + (folder_ / "c.h5.partial") + " -o " + (folder_ / "c.h5")).code, 2);
   EXPECT_EQ(bytes(a()), before);
   EXPECT_EQ(bytes(folder_ / "c.h5.partial"), before);
+  EXPECT_TRUE(std::filesystem::is_symlink(folder_ / "device"));
 }
 
 /// A scene that includes its bodies, and a results file that is worth keeping.
@@ -257,7 +259,10 @@ TEST_F(RunCommandTest, OutputMayNotReplaceTheSceneNorWhatItIncludes) {
     EXPECT_EQ(bytes(folder_ / name), before);
   }
   EXPECT_EQ(run("-o ''").code, 2);
-  EXPECT_EQ(run("-o /dev/full").code, 2);
+  std::filesystem::create_symlink("/dev/full", folder_ / "device");
+  EXPECT_EQ(run("-o " + (folder_ / "device")).code, 2);
+  EXPECT_TRUE(std::filesystem::is_symlink(folder_ / "device"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "device.lock"));
 }
 
 TEST_F(RunCommandTest, AnalysisOptionsHaveTheLimitsOfTheScene) {

@@ -251,10 +251,22 @@ TEST_F(IdentifyCommand, PlanAndRunWarnOnStandardError) {
     const Answer both = call(arguments);
     EXPECT_EQ(both.code, 0) << both.text;
     EXPECT_THAT(both.text, HasSubstr("frame: warning: ")) << arguments;
-    EXPECT_THAT(call(arguments + " 2>/dev/null #").text, Not(HasSubstr("warning"))) << arguments;
+    EXPECT_THAT(call(arguments + " 2>/dev/null #").text, Not(HasSubstr("warning:"))) << arguments;
   }
   const ModalData kept = read_mode_file(path("run.frame_modes.h5"));
   EXPECT_EQ(kept.mode_count(), 6);
+}
+
+TEST_F(IdentifyCommand, RunThatRecordsNothingIsRefusedBeforeItReplacesModes) {
+  const std::string scene =
+      files_.write("scene.yaml", std::string(kScene) + "output: {record: [/absent/*]}\n");
+  std::ofstream(path("run.frame_modes.h5")) << "earlier";
+  const Answer answer = call("run " + scene + " -o " + path("run.h5"));
+  EXPECT_EQ(answer.code, 2);
+  EXPECT_THAT(answer.text, AllOf(HasSubstr("scene.yaml:"), HasSubstr("no signal matches (got /absent/*)")));
+  std::string kept;
+  std::ifstream(path("run.frame_modes.h5")) >> kept;
+  EXPECT_EQ(kept, "earlier");
 }
 
 }  // namespace

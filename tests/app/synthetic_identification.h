@@ -8,9 +8,9 @@
 
 namespace wishbone {
 
-/// The lowest modes of a free block, with its edges as lines.
+/// The lowest modes of a free block of the source's hexahedra, with its edges as lines.
 inline ModalData block_modes(const Vector3& size, const Eigen::Vector3i& divisions, int count) {
-  const Mesh mesh = make_block(size, divisions);
+  const Mesh mesh = make_block(size, divisions, ElementType::mean_dilatation);
   const ModeSet set = free_free_modes(mesh, {210e6, 0.3, 2600}).lowest(count);
   ModalData data;
   data.title = "block";

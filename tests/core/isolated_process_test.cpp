@@ -74,12 +74,26 @@ TEST_F(Isolated, ProcessThatLeavesIsAnErrorOfTheInput) {
               HasSubstr("a.h5: error: the file is broken: the process that reads it ended"));
 }
 
+TEST_F(Isolated, ProcessOfWhichNobodyKnowsTheEndIsNotSaidToGoOn) {
+  const auto handler = signal(SIGCHLD, SIG_IGN);  // the system forgets children that have ended
+  for (const char* again : {"", ", and stays so"})
+    EXPECT_THAT(error_of("crash"), HasSubstr("broken: the process that reads it ended")) << again;
+  signal(SIGCHLD, handler);
+}
+
+TEST_F(Isolated, AnswerLargerThanItsMemoryIsNotWaitedFor) {
+  const std::string large(std::size_t{4} << 20, 'x');
+  IsolatedProcess process("a.h5", {.memory_bytes = std::size_t{1} << 20},
+                          [&](std::string_view, const IsolatedProcess::Send& send) { send(large); });
+  EXPECT_THAT(message_of<InputError>([&] { answer(process, ""); }), HasSubstr("more than it may hold"));
+}
+
 TEST_F(Isolated, EndlessLoopIsStoppedByItsProcessorTime) {
   EXPECT_THAT(error_of("loop"), HasSubstr("reading it does not end within 0.3 s of processor time"));
 }
 
 TEST_F(Isolated, SilenceIsStoppedByTheClock) {
-  EXPECT_THAT(error_of("sleep"), HasSubstr("reading it does not end"));
+  EXPECT_THAT(error_of("sleep"), HasSubstr("reading it does not end within 1 s"));
 }
 
 TEST_F(Isolated, ProcessorTimeCountsForEachRequestAnew) {

@@ -4,15 +4,22 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "models/run_scene.h"
 #include "models/scene_loader.h"
+#include "solver/failure_cause.h"
+#include "solver/progress_guard.h"
 #include "text_files.h"
 
 namespace wishbone {
 namespace {
 
 using testing::HasSubstr;
+
+Scene read(const std::string& text) {
+  return load_scene(TextFiles().write("scene.yaml", text));
+}
 
 TransientSummary run(const std::string& text) {
   const TextFiles files;
@@ -63,6 +70,40 @@ TEST(MotionBeyondReach, OfAnActuatorIsToldByItsName) {
   EXPECT_EQ(s.status, TransientSummary::Status::failed);
   EXPECT_THAT(s.message, HasSubstr("'actuator': error: the mechanism cannot follow the prescribed motion"));
   EXPECT_NEAR(s.t_end, (std::sqrt(0.8) - (std::sqrt(0.52) - 0.2)) / 0.2, 1e-3);
+}
+
+TEST(MotionBeyondReach, IsToldWhateverTheFormAndTheIntegrator) {
+  const Scene scene = read(crank_rocker(", motion: swing", "motions: {swing: {expression: 1*t}}\n"));
+  for (const auto& [form, method] : {std::pair(Form::index1, Method::erk),
+                                     {Form::index1, Method::bdf},
+                                     {Form::index1, Method::adams},
+                                     {Form::partition, Method::erk},
+                                     {Form::partition, Method::bdf},
+                                     {Form::ggl, Method::bdf}}) {
+    SCOPED_TRACE(std::string(to_string(form)) + " " + std::string(to_string(method)));
+    CompiledScene compiled = compile(scene);
+    compiled.transient.integrator.form = form;
+    compiled.transient.integrator.method = method;
+    Workspace ws(compiled.system);
+    const TransientSummary s = run_transient(compiled.system, compiled.initial, compiled.transient, ws,
+                                             [](const State&, const Work&) {});
+    EXPECT_EQ(s.status, TransientSummary::Status::failed);
+    EXPECT_THAT(s.message, HasSubstr("the mechanism cannot follow the prescribed motion"));
+    EXPECT_NEAR(s.t_end, kReach, 1e-3);
+  }
+}
+
+TEST(MotionBeyondReach, IsNoCauseOfOtherErrorsThere) {
+  const Scene scene = read(crank_rocker(", motion: swing", "motions: {swing: {expression: 1*t}}\n"));
+  const CompiledScene compiled = compile(scene);
+  Workspace ws(compiled.system);
+  run_transient(compiled.system, compiled.initial, compiled.transient, ws, [](const State&, const Work&) {});
+  const Diagnostic other{"out.h5", "no space left on device", "", ""};
+  const auto told = [&](const NumericsError& error) {
+    return std::string(explained(error, compiled.system, kReach, VectorX(), ws).what());
+  };
+  EXPECT_EQ(told(NumericsError(other)), NumericsError(other).what());
+  EXPECT_THAT(told(StepsFailed(other)), HasSubstr("the mechanism cannot follow the prescribed motion"));
 }
 
 }  // namespace

@@ -2,8 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "core/error.h"
+#include "solver/first_order.h"
 #include "solver/mechanisms.h"
+#include "solver/progress_guard.h"
 
 namespace wishbone {
 namespace {
@@ -149,6 +153,26 @@ TEST(Failure, DoesNotBefallABeadAsSmallAsADustGrain) {
     EXPECT_EQ(simulate(m.system, m.state, 0.1, 0.1, 1e-8).summary.status, TransientSummary::Status::complete)
         << joint_kind(joint);
   }
+}
+
+/// Answers of the guard around callbacks at times from t on, all of which fail but every `good`-th.
+std::vector<int> answers(FirstOrderSystem& equations, double t, int good) {
+  std::vector<int> answers;
+  for (int i = 1; i <= 200; ++i)
+    answers.push_back(equations.guard([&] {
+      equations.note_time(t += 1e-13);  // 200 of them lie within a billionth
+      if (i % good != 0) throw NumericsError({"spring", "its ends meet", "", ""});
+    }));
+  return answers;
+}
+
+TEST(Failure, AgainAndAgainAtOneTimeIsHopelessUnlessTheRunHasGoneOn) {
+  const Built m = cart_on_spring(200);
+  Workspace ws(m.system);
+  ProgressGuard progress({}, {});
+  FirstOrderSystem stuck(m.system, ws, progress), creeping(m.system, ws, progress);
+  EXPECT_THAT(answers(stuck, 1, 1000), ::testing::Contains(-1));
+  EXPECT_THAT(answers(creeping, 1, 20), ::testing::Each(::testing::AnyOf(0, 1)));
 }
 
 }  // namespace

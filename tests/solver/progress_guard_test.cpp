@@ -39,8 +39,25 @@ TEST(ProgressGuard, EndsARunThatCreepsAndCountsTheSizeOfTheProblem) {
   }
 }
 
+TEST(ProgressGuard, EndsARunWhoseStepsAdvanceByLessThanABillionthOfItsDuration) {
+  ProgressGuard guard({1, 1e-3, 5}, {});
+  guard.start(1);
+  double t = 1;
+  const auto creep = [&](double advance) {
+    for (long i = 0; i < ProgressGuard::kStepPatience; ++i)
+      guard.accept(t += advance / ProgressGuard::kStepPatience);
+  };
+  EXPECT_NO_THROW(creep(6e-9));
+  try {
+    creep(4e-9);
+    FAIL() << "went on";
+  } catch (const HopelessRun& error) {
+    EXPECT_THAT(error.what(), HasSubstr("in the last 10000 steps"));
+  }
+}
+
 TEST(ProgressGuard, LetsARunCreepWhoseStepsTheUserHasCounted) {
-  ProgressGuard guard({1, 0}, {});
+  ProgressGuard guard({1, 0, 1}, {});
   guard.start(0);
   for (int i = 0; i < 30'000; ++i) {
     guard.count(1000);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -14,6 +15,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "allocation_counter.h"
@@ -308,6 +310,36 @@ TEST(Recorder, RemovesWhatKilledWritersOfTheSameFileLeft) {
   EXPECT_FALSE(std::filesystem::exists(folder / "a.h5.partial-0a1b2c"));
   EXPECT_FALSE(std::filesystem::exists(folder / "a.h5.partial.partial-0a1b2c"));
   EXPECT_TRUE(std::filesystem::exists(folder / "b.h5.partial-0a1b2c"));
+}
+
+TEST(Recorder, LeavesFilesAloneWhoseNamesOnlyBeginLikeItsOwn) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> names{
+      "a.h5.partial-notes",   "a.h5.partial-backup",   "a.h5.partial-0a1b2",
+      "a.h5.partial-0a1b2c3", "a.h5.partial-0A1B2C",   "a.h5.partial-",
+      "a.h5.partial-0a1b2c~", "a.h5.partial.partial-", "xa.h5.partial-0a1b2c"};
+  for (const std::string& name : names) std::ofstream(folder / name) << "kept";
+  record(folder / "a.h5", 3);
+  for (const std::string& name : names) EXPECT_EQ(bytes(folder / name), "kept") << name;
+}
+
+TEST(Recorder, DevicesPipesAndFoldersAreNotReplaced) {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("/dev/full", folder / "device");  // never by its own name: it can be lost
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  std::filesystem::create_directory(folder / "folder");
+  std::filesystem::create_symlink(folder / "folder", folder / "way");
+  for (const char* name : {"device", "pipe", "folder", "way"}) {
+    EXPECT_THROW(record(folder / name, 3), NumericsError) << name;
+    EXPECT_FALSE(std::filesystem::exists(folder / (std::string(name) + ".lock"))) << name;
+    std::filesystem::create_symlink(folder / name, folder / "a.h5.partial");
+    EXPECT_THROW(record(folder / "a.h5", 3), NumericsError) << name;
+    std::filesystem::remove(folder / "a.h5.partial");
+  }
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "device"));
+  EXPECT_TRUE(std::filesystem::is_fifo(folder / "pipe"));
+  const auto left = std::filesystem::directory_iterator(folder / "");
+  EXPECT_EQ(std::distance(begin(left), end(left)), 4);
 }
 
 TEST(Recorder, LinkWithTheNameOfThePartialFileIsNotFollowed) {

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/ascii.h"
 #include "core/utf8.h"
 
 namespace wishbone {
@@ -14,10 +15,6 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t";
 constexpr std::size_t kLongestShown = 60;
-
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
 
 std::size_t digits_at(std::string_view text, std::size_t at) {
   std::size_t n = 0;

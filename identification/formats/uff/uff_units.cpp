@@ -6,10 +6,12 @@
 #include <cmath>
 #include <string_view>
 
+#include "core/units.h"
+
 namespace wishbone {
 namespace {
 
-constexpr double kFoot = 0.3048, kInch = 0.0254, kPound = 0.45359237, kGravity = 9.80665;
+constexpr double kFoot = 0.3048, kInch = 0.0254, kPound = 0.45359237;
 
 struct System {
   std::string_view name;
@@ -20,13 +22,13 @@ struct System {
 /// By code; the ninth is user-defined.
 constexpr std::array<System, 11> kSystems = {{{},
                                               {"m, N", 1, 1},
-                                              {"ft, lbf", kFoot, kPound* kGravity},
-                                              {"m, kgf", 1, kGravity},
+                                              {"ft, lbf", kFoot, kPound* kStandardGravity},
+                                              {"m, kgf", 1, kStandardGravity},
                                               {"ft, pdl", kFoot, kPound* kFoot},
                                               {"mm, mN", 1e-3, 1e-3},
                                               {"cm, cN", 1e-2, 1e-2},
-                                              {"in, lbf", kInch, kPound* kGravity},
-                                              {"mm, kgf", 1e-3, kGravity},
+                                              {"in, lbf", kInch, kPound* kStandardGravity},
+                                              {"mm, kgf", 1e-3, kStandardGravity},
                                               {"user-defined", 0, 0},
                                               {"mm, N", 1e-3, 1}}};
 
