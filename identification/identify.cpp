@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cmath>
-#include <limits>
-
 #include "core/error.h"
 #include "core/version.h"
 #include "identification/judgement/judge.h"

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "identification/prepared_structure.h"
 
 namespace wishbone {

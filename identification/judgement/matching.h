@@ -18,7 +18,8 @@ struct Matching {
 ///     share = |Q^T a|^2 / |a|^2,  Q an orthonormal basis of R,
 /// the squared cosine of the angle between mode and space, which is the MAC for a group of one. The largest shares come
 /// first, no group takes more modes than it has, none of less than `least`. Within its group a mode is held against its
-/// own projection on R, in the order of frequencies.
+/// own projection on R. Its partner there is the reference mode that it clearly resembles (share 0.9 or more); the others
+/// pair in the order of frequencies.
 ///
 /// Source of angles between spaces: A. Bjorck, G. H. Golub, Mathematics of Computation 27 (1973) 579-594.
 Matching match_modes(const MatrixX& shapes, const MatrixX& reference, const VectorX& omega,

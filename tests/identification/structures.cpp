@@ -43,7 +43,7 @@ TestStructure chassis() {
 }
 
 TestStructure slender_block() {
-  return from_mesh(make_block({1.8, 0.4, 0.4}, {3, 1, 1}));
+  return from_mesh(make_block({1.8, 0.4, 0.4}, {3, 1, 1}, ElementType::mean_dilatation));
 }
 
 TestStructure distorted_block(const Eigen::Vector3i& divisions, unsigned seed) {

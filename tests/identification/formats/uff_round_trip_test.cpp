@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
 
 #include <cmath>
 #include <complex>
+#include <filesystem>
 #include <limits>
 #include <string>
 #include <vector>
@@ -9,6 +12,7 @@
 #include "core/error.h"
 #include "identification/formats/uff/uff_reader.h"
 #include "identification/formats/uff/uff_writer.h"
+#include "temporary_folder.h"
 #include "text_files.h"
 
 /// What is written comes back, to the digits that the standard's formats keep.
@@ -275,11 +279,22 @@ TEST(UffWriter, RefusesWhatDoesNotFitTogether) {
 
 TEST(UffWriter, SaysThatAFileCannotBeWritten) {
   EXPECT_THROW(write_uff(kFiles / "no such folder" / "file.unv", {}), NumericsError);
-  if (std::filesystem::exists("/dev/full")) {
-    UffFile file;
-    file.header.emplace();
-    EXPECT_THROW(write_uff("/dev/full", file), NumericsError);
-  }
+  const TemporaryFolder folder;
+  UffFile file;
+  file.header.emplace();
+  std::filesystem::create_symlink("/dev/full", folder / "device");  // never by its own name: it can be lost
+  EXPECT_THROW(write_uff(folder / "device", file), NumericsError);
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "device"));
+
+  rlimit before;
+  getrlimit(RLIMIT_FSIZE, &before);
+  const auto handler = signal(SIGXFSZ, SIG_IGN);
+  const rlimit one_byte{1, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &one_byte);
+  EXPECT_THROW(write_uff(folder / "file.unv", file), NumericsError);
+  setrlimit(RLIMIT_FSIZE, &before);
+  signal(SIGXFSZ, handler);
+  EXPECT_FALSE(std::filesystem::exists(folder / "file.unv"));
 }
 
 }  // namespace

@@ -81,6 +81,24 @@ TEST(Matching, DoesNotPairWhatLiesOutsideTheGroup) {
   EXPECT_EQ(std::count(partner.begin(), partner.end(), -1), 1);
 }
 
+TEST(Matching, PairsCloseModesByTheirShapesWhereTheseAreClear) {
+  // two of one frequency, turned in their plane, and two close to it; measured in another order
+  const MatrixX reference = chassis().elastic().lowest(4).shapes;
+  const Eigen::Vector4d omega(1, 1, 1.0002, 1.0009);
+  const MatrixX pair = reference.leftCols(2) * turn(2, 3);
+  MatrixX shapes(reference.rows(), 4);
+  shapes << reference.col(3), pair.col(0), reference.col(2), pair.col(1);
+  const Matching clear = match_modes(shapes, reference, omega);
+  EXPECT_THAT(clear.partner, testing::ElementsAre(3, 0, 2, 1));
+  shapes.col(0) += 0.6 * reference.col(2);  // no longer clear: takes what the others leave
+  shapes.col(2) -= 0.1 * reference.col(3);
+  const Matching mixed = match_modes(shapes, reference, omega);
+  EXPECT_THAT(mixed.partner, testing::ElementsAre(3, 0, 2, 1));
+  for (const Matching& matching : {clear, mixed})
+    for (int i = 0; i < 4; ++i)
+      EXPECT_NEAR(matching.mac(i, matching.partner[static_cast<std::size_t>(i)]), 1, 1e-12);
+}
+
 TEST(Matching, KeepsApartWhatDiffersInFrequency) {
   const MatrixX reference = chassis().elastic().lowest(2).shapes;
   MatrixX shapes(reference.rows(), 2);
