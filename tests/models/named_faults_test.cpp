@@ -84,7 +84,8 @@ TEST(NamedFaults, OfMotionsInEveryFormAndMethod) {
     for (const char* fault : {"sqrt(0.05 - t)", "ln(0.05 - t)", "asin(20*t)", "1/(0.05 - t)"}) {
       std::string text = scene_of("0*t", kVictims[0], solver);
       text.replace(text.find("speed: 10}"), 10, "motion: drive}");
-      text.replace(text.find("speed: -10"), 10, "speed: 0");
+      const std::string given = ", speed: -10";  // the motion says how fast the gears turn
+      text.erase(text.find(given), given.size());
       text += "motions: {drive: {expression: '" + std::string(fault) + "'}}\n";
       EXPECT_THAT(end_of(text), testing::AnyOf(HasSubstr("drive"), HasSubstr("pin")))
           << fault << ", " << solver;

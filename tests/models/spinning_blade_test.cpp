@@ -17,7 +17,8 @@ namespace {
 
 constexpr double kSpin = 20;  // [rad/s]; at rest the blade swings with 16
 
-// 1 m x 0.1 m x 0.02 m, its root at the axis; damped so much that it comes to rest in its turning axes.
+// 1 m x 0.1 m x 0.02 m, its root at the axis; damped so much that it comes to rest in its turning axes. Along it are so many
+// elements that the sag is within 0.3 % of the beam's: 30, 60, 90 leave 0.54, 0.21, 0.10 %.
 constexpr std::string_view kSaggingBlade = R"(wishbone: 1
 parameters: {spin: 20 rad/s}
 gravity: [0, 0, -1]
@@ -28,7 +29,7 @@ bodies:
     velocity: [0, = 0.5*spin, 0]
     angular_velocity: [0, 0, = spin]
     flexible:
-      block: {size: [1, 0.1, 0.02], elements: [30, 2, 1]}
+      block: {size: [1, 0.1, 0.02], elements: [60, 2, 1]}
       material: {young: 400 MPa, poisson: 0.3, density: 1000}
       modes: 8
       attachment: [1, 2, 3, 4, 5, 6]
@@ -40,7 +41,7 @@ joints:
 motions:
   turn: {expression: spin*t}
 analysis: {duration: 3 s, integrator: bdf, rtol: 1e-6, atol: 1e-8}
-output: {interval: 1 s, points: {tip: {body: blade, node: 182}}}
+output: {interval: 1 s, points: {tip: {body: blade, node: 362}}}
 )";
 
 class SpinningBlade : public testing::Test {
