@@ -21,7 +21,7 @@ struct Asked {
   Method method;
 };
 
-/// Evaluations that no run below may exceed. The most that one took is a tenth.
+/// Evaluations that no run below may exceed.
 constexpr long kMostEvaluations = 3'000'000;
 
 class TightTolerances : public ::testing::TestWithParam<std::string> {};
@@ -38,8 +38,8 @@ std::vector<Asked> choices_for(const System& system) {
           {Form::partition, Method::erk},       {Form::partition, Method::bdf}, {Form::ggl, Method::bdf}};
 }
 
-/// Through singular positions, where rounding grows with the inverse square of the distance, the last digits take ten times the
-/// work, and minutes.
+/// Through singular positions, where rounding grows with the inverse square of the distance, the last digits take up to 1e7
+/// evaluations, and minutes.
 double finest(const std::string& scene) {
   return scene == "n_four_bar" ? 1e-11 : 1e-14;
 }
