@@ -38,7 +38,7 @@ std::vector<std::string> gap_lines(const AssemblyReport& assembly) {
   return lines;
 }
 
-/// "pinion_bearing: speed: 0 given, -10 at the start" for each speed that follows from others.
+/// "pinion_bearing: speed: 0 before, -10 after" for each speed that follows from others.
 std::vector<std::string> speed_lines(const System& system, const AssemblyReport& assembly) {
   std::vector<std::string> lines;
   for (const ChangedSpeed& speed : assembly.speeds)
